@@ -25,6 +25,7 @@ static int32_t holds(const fe__bounds *a, const fe__bounds *b)
 static int32_t look_at(fe__drawing *d, fe__shape_walk *walk)
 {
     const fe__shape *shape = d->world->shapes + walk->shape;
+    if (fe__form_is_of_parts(&shape->form)) return 0; // its parts follow
     walk->rgba = fe__shape_colour(walk->body_colour, shape);
     walk->is_cut = 0;
     if (!d->has_box || fe__form_is_unbounded(&shape->form)) return 1; // a plane is cut as it is drawn
@@ -64,9 +65,8 @@ int32_t fe__shapes_next(fe__drawing *d, fe__shape_walk *walk)
         while (walk->next_shape < 0)
             if (!open_next_body(d, walk)) return 0;
         walk->shape = walk->next_shape;
-        const fe__shape *shape = d->world->shapes + walk->shape;
-        walk->next_shape = shape->next;
-        if (!fe__form_is_of_parts(&shape->form) && look_at(d, walk)) return 1; // its parts come behind it
+        walk->next_shape = d->world->shapes[walk->shape].next;
+        if (look_at(d, walk)) return 1;
     }
 }
 
@@ -98,7 +98,8 @@ void fe__draw_shapes(fe__drawing *d, fe__pen *pen, void draw(const fe__drawn *su
 static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *walk, const fe__stance *stance)
 {
     const fe_world *w = d->world;
-    const fe__form *form = &w->shapes[walk->shape].form;
+    const fe__shape *shape = w->shapes + walk->shape;
+    const fe__form *form = &shape->form;
     fe_draw_instance i = {.type = fe__traits_of(form)->geometry,
                           .rgba = walk->rgba,
                           .shape = fe__shape_handle(w, walk->shape),
@@ -106,7 +107,7 @@ static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *wal
                           .position = stance->position,
                           .rotation = stance->rotation,
                           .half_extents = stance->half_extents,
-                          .part = fe__part_of_serial(w->shapes[walk->shape].serial)};
+                          .part = fe__part_of_serial(shape->serial)};
     if (!fe__form_has_asset(form)) return i;
     i.asset = fe__store_parent(w->store, form->field)->handle;
     i.half_extents = fe__store_asset(w->store, form->field)->scale;

@@ -574,6 +574,37 @@ static void instances_say_form_pose_and_size(void **state)
 }
 
 // ---- determinism
+// Two boxes, one above the other: each a closed surface of the compound's shape
+static void parts_of_compounds_are_drawn(void **state)
+{
+    (void)state;
+    fe_world *world = new_world();
+    fe_compound_part parts[2];
+    for (int32_t i = 0; i < 2; ++i) {
+        fe_compound_part_init(parts + i, sizeof *parts);
+        fe_geometry_box(&parts[i].geometry, 0.5f, 0.25f, 0.5f);
+        parts[i].frame.position.y = (float)i;
+    }
+    fe_asset compound = 0;
+    OK(fe_compound_create(world_store(world), parts, sizeof *parts, 2, &compound));
+    fe_geometry geometry;
+    fe_geometry_compound(&geometry, compound);
+    fe_body body = new_turned(world, FE_BODY_DYNAMIC, 3, &geometry);
+    fe_shape shape = 0;
+    assert_int_equal(fe_body_get_shapes(world, body, &shape, 1), 1);
+    drawn d = draw(fe_world_draw_triangles, world, NULL);
+    assert_int_equal(d.count, 2 * 36);
+    FE_NEAR(volume_of(&d), 1.0, 1e-4);
+    for (int32_t i = 0; i < d.count; ++i) assert_true(d.vertices[i].owner == shape);
+    free(d.vertices);
+    fe_draw_options options = options_of(FE_DRAW_BOUNDS);
+    assert_int_equal(fe_world_draw_lines(world, &options, NULL, 0, 0), 2 * 24);
+    fe_draw_instance out[2];
+    assert_int_equal(fe_world_draw_instances(world, NULL, out, sizeof *out, 2), 2);
+    assert_true(out[0].part == 0 && out[1].part == 1 && out[1].shape == shape && out[1].type == FE_GEOMETRY_BOX);
+    OK(fe_world_destroy(world));
+}
+
 // -----------------------------------------------------------------------------------------------------
 static void add_vertices(fe__hash *hash, const drawn *d)
 {
@@ -650,6 +681,7 @@ int main(void)
         cmocka_unit_test(contacts_are_drawn_where_they_are),
         cmocka_unit_test(joints_and_limits_are_drawn),
         cmocka_unit_test(instances_say_form_pose_and_size),
+        cmocka_unit_test(parts_of_compounds_are_drawn),
         cmocka_unit_test(workers_and_kernels_do_not_show),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
