@@ -996,10 +996,11 @@ typedef struct fe_compound_part {
 FE_API void fe_compound_part_init(fe_compound_part *part, uint32_t struct_size);
 /// Makes one form of several: a table, a tree, a tiled floor. Its shape (fe_geometry_compound) has one handle, filter
 /// and user data; mass, centre and inertia are those of its parts together. Hits, contacts and events name the shape,
-/// and the number of the part: its place in `parts`. A pair of shapes begins to touch with the first two of their
-/// parts that do, and ends with the last two. Parts may overlap; each weighs what it weighs alone. They move, touch and
-/// answer queries as single shapes of the body do. To change one, make another compound and give it to the shape
-/// (fe_shape_set_geometry). Parts of a body that need their own filter, events or handle are better single shapes.
+/// and the number of the part: its place in `parts`. A pair of shapes begins to touch with the first two of their parts
+/// that do, and ends with the last two. Parts may overlap; each weighs what it weighs alone. Each part of a one-way
+/// compound judges by itself who comes from behind. Parts move, touch and answer queries as single shapes of the body
+/// do. To change one, make another compound and give it to the shape (fe_shape_set_geometry). Parts of a body that need
+/// their own filter, events or handle are better single shapes.
 ///
 /// The parts are copied. Their assets live as long as the compound does, whoever destroys their handles. Any number of
 /// shapes, in any world that uses the store, may share it; fe_asset_destroy gives it back. A compound has no scale:
@@ -1014,7 +1015,7 @@ FE_API fe_result fe_compound_create(fe_store *store, const fe_compound_part *par
 /// What a compound is.
 typedef struct fe_compound_info {
     uint32_t struct_size;
-    int32_t part_count;
+    int32_t part_count;   ///< how many parts it has
     fe_vec3 lower, upper; ///< least and greatest corner of the bounds of its parts, m, in the compound's space
     int64_t bytes;        ///< of memory, without the assets of its parts
 } fe_compound_info;
@@ -1755,8 +1756,9 @@ FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, con
 // order in which their bodies were created, then the other parts in the order of fe_draw_flags.
 //
 // **Colours** are safe for the colour-blind. Static bodies are grey, kinematic ones blue. Awake dynamic bodies have one
-// of eight warm and green hues, sleeping ones are dim. Triggers and disabled bodies are see-through. Contact points and
-// forces go from pale to dark with what they carry. Limits go from green to red as they are used.
+// of eight hues, that of their island's oldest body; sleeping ones are dim. Triggers and disabled bodies are see-
+// through. Contact points and forces go from pale to dark with what they carry. Limits go from green to red as they are
+// used.
 
 /// What is drawn, as bits.
 typedef enum fe_draw_flags {
@@ -1768,7 +1770,7 @@ typedef enum fe_draw_flags {
     FE_DRAW_LIMITS = 16,   ///< lines: the ranges of joints, and where they are now
     FE_DRAW_ISLANDS = 32,  ///< each island has a hue, that of its body created first; else all have one
     FE_DRAW_SLEEP = 64,    ///< who sleeps is dim
-    FE_DRAW_BOUNDS = 128,  ///< lines: the box around each shape
+    FE_DRAW_BOUNDS = 128,  ///< lines: the box around each shape, of a compound around each part
     FE_DRAW_CENTRES = 256, ///< points: centres of mass; lines: principal axes
     FE_DRAW_TREES = 512,   ///< lines: the boxes of the trees that serve pairs and queries
     FE_DRAW_FORCE32 = 0x7fffffff

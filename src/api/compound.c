@@ -34,7 +34,7 @@ static fe_result check_part(const char *function, const fe_compound_part *part)
     FE_CHECK_VEC3(&part->frame.position, FE_MAX_LOCAL);
     FE_CHECK_QUAT(&part->frame.rotation);
     FE_CHECK_BOOL(part->own_material);
-    FE_TRY(fe__check_material(function, &part->material));
+    if (part->own_material) FE_TRY(fe__check_material(function, &part->material));
     int32_t type = part->geometry.type;
     if (type != FE_GEOMETRY_PLANE && type != FE_GEOMETRY_COMPOUND) return FE_OK;
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "a compound has no %s among its parts",
@@ -52,6 +52,10 @@ static fe_result read_part(const char *function, fe_store *store, const fe_compo
         return fe__fail(function, FE_ERROR_ARGUMENT, "struct_size is %lu, more than the stride, %lu",
                         (unsigned long)size, (unsigned long)stride);
     FE_READ_STRUCT(part, &full);
+    if (full.geometry.struct_size > sizeof full.geometry) // what it has beyond would lie in the part's next field
+        return fe__fail(function, FE_ERROR_ARGUMENT,
+                        "geometry.struct_size is %lu, more than the %lu of a part's geometry",
+                        (unsigned long)full.geometry.struct_size, (unsigned long)sizeof full.geometry);
     FE_TRY(check_part(function, &full));
     *out_part = (fe__compound_part){.position = full.frame.position,
                                     .density = full.density,

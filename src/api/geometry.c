@@ -89,8 +89,7 @@ fe_result fe__read_geometry(const char *function, fe_store *store, const fe_geom
     }
 }
 
-// ---- and back
-// --------------------------------------------------------------------------------------------------------
+// ---- and back ------------------------------------------------------------------------------------------------------
 
 fe_geometry fe__geometry_of(const fe_store *store, const fe__form *form)
 {

@@ -9,8 +9,7 @@
 #include "world/shapes.h"
 #include "world/sleep.h"
 
-// ---- what may be
-// -----------------------------------------------------------------------------------------------------
+// ---- what may be ---------------------------------------------------------------------------------------------------
 
 // Planes and heightfields are static only; meshes are carried by kinematic bodies too.
 static fe_result check_form_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)

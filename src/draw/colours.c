@@ -58,7 +58,7 @@ uint32_t fe__shape_colour(uint32_t body_colour, const fe__shape *shape)
     return shape->flags & FE__SHAPE_TRIGGER ? with_alpha(body_colour, SEE_THROUGH) : body_colour;
 }
 
-// Steps of the square root of ten, from a tenth of the weight on
+// `load`: the force as a multiple of the lighter body's weight
 uint32_t fe__load_colour(double load)
 {
     static const double least[FE__LOADS - 1] = {1e-3, 0.1, 1.0, 3.0, 10.0};

@@ -1,7 +1,7 @@
 // colours.h - every colour of a drawing, in one table.
 //
 // Hues are of Okabe and Ito (Color universal design, 2008) and of Tol (Colour schemes, 2021): people who confuse red
-// and green tell them apart. Blue and grey are left to what is not dynamic.
+// and green tell them apart.
 #ifndef FE_DRAW_COLOURS_H
 #define FE_DRAW_COLOURS_H
 #include "draw/drawing.h"

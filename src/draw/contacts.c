@@ -58,8 +58,7 @@ static void draw_arrow(const fe__drawing *d, fe__pen *pen, fe_dvec3 from, fe_vec
     fe__pen_line(pen, fe__in_drawing(d, from), fe__in_drawing(d, fe__dadd(from, fe__widen(way))));
 }
 
-// ---- what is drawn of a contact
-// --------------------------------------------------------------------------------------
+// ---- what is drawn of a contact ------------------------------------------------------------------------------------
 static void draw_normals(const fe__drawing *d, const touch *t, fe__pen *pen)
 {
     for (int32_t i = 0; i < t->count; ++i) {

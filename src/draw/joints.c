@@ -34,8 +34,7 @@ static void line(const fe__drawing *d, fe__pen *pen, fe_dvec3 from, fe_dvec3 to)
     fe__pen_line(pen, fe__in_drawing(d, from), fe__in_drawing(d, to));
 }
 
-// ---- what is drawn of a joint
-// ----------------------------------------------------------------------------------------
+// ---- what is drawn of a joint --------------------------------------------------------------------------------------
 static void draw_axes(const fe__drawing *d, const fe_transform *frame, fe__pen *pen)
 {
     static const fe__colour colours[3] = {FE__COLOUR_X, FE__COLOUR_Y, FE__COLOUR_Z};

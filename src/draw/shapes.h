@@ -29,6 +29,7 @@ static inline int32_t fe__is_drawn(const fe__drawing *d, int32_t body) { return 
 static inline int32_t fe__is_in_box(const fe__drawing *d, fe_dvec3 p)
 {
     const fe__bounds *b = &d->box;
+    if (!d->has_box) return 1;
     return p.x >= b->low.x && p.x <= b->high.x && p.y >= b->low.y && p.y <= b->high.y && p.z >= b->low.z &&
            p.z <= b->high.z;
 }

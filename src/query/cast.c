@@ -280,14 +280,17 @@ typedef struct collection {
     fe__keep keep;
 } collection;
 
-// A body of several shapes is reported once, by that of its hits that comes first: this one?
-static int32_t is_first_of_body(const collection *c, int32_t index, const found *f)
+// A body of several shapes is reported once, when the walk meets the first of them, and by that of its hits which comes
+// first. 0: not now
+static int32_t meet_body(const collection *c, int32_t index, fe_hit *out_hit)
 {
-    const fe__shape *shape = &c->scene->shapes[index];
-    if (fe__is_only_shape(shape)) return 1;
-    cast of_body = {.scene = c->scene, .probe = c->probe, .body = shape->body, .shape = -1};
-    walk(c->scene, c->probe, f->hit.t, visit_nearest, &of_body);
-    return of_body.shape == index;
+    int32_t body = c->scene->shapes[index].body;
+    cast first = {.scene = c->scene, .probe = c->probe, .body = body, .shape = -1};
+    walk(c->scene, c->probe, 1.0, visit_any, &first);
+    if (first.shape != index) return 0;
+    cast nearest = {.scene = c->scene, .probe = c->probe, .body = body, .shape = -1};
+    walk(c->scene, c->probe, 1.0, visit_nearest, &nearest);
+    return report_nearest(&nearest, out_hit);
 }
 
 static double visit_all(void *context, int32_t index, double limit)
@@ -295,11 +298,12 @@ static double visit_all(void *context, int32_t index, double limit)
     collection *c = context;
     const fe__shape *shape = &c->scene->shapes[index];
     found f;
-    if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f) ||
-        !is_first_of_body(c, index, &f))
-        return limit;
+    if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f)) return limit;
     fe_hit hit;
-    report(c->scene, c->probe, index, &f, &hit);
+    if (fe__is_only_shape(shape))
+        report(c->scene, c->probe, index, &f, &hit);
+    else if (!meet_body(c, index, &hit))
+        return limit;
     fe__keep_add(&c->keep, &hit);
     return limit;
 }

@@ -39,22 +39,20 @@ static void walk(search *s, fe__tree_visit visit)
     walk_box(scene, &s->probe->way, visit, s);
 }
 
-// Goes on until the shape created first is found.
+// Ends at the first that touches. What lies in the other tree then is passed over.
 static int32_t visit_first(void *context, int32_t index)
 {
     search *s = context;
-    const fe__shape *shape = &s->scene->shapes[index];
-    if (s->shape >= 0 && !fe__created_before(shape, &s->scene->shapes[s->shape])) return 1;
-    if (touches(s, shape)) s->shape = index;
-    return 1;
+    if (s->shape < 0 && touches(s, &s->scene->shapes[index])) s->shape = index;
+    return s->shape < 0;
 }
 
-// A body of several shapes is reported once, by the first of them that overlaps: this one?
+// A body of several shapes is reported once, by the one that the walk meets first of those that overlap: this one?
 static int32_t is_first_of_body(const search *s, int32_t index)
 {
     const fe__shape *shape = &s->scene->shapes[index];
     if (fe__is_only_shape(shape)) return 1;
-    search of_body = {.scene = s->scene, .probe = s->probe, .body = shape->body, .shape = index};
+    search of_body = {.scene = s->scene, .probe = s->probe, .body = shape->body, .shape = -1};
     walk(&of_body, visit_first);
     return of_body.shape == index;
 }
@@ -122,41 +120,53 @@ static int32_t overlap_before(const void *context, const void *a, const void *b)
     return fe__created_before(&scene->shapes[fe__id_slot_of(of_a.shape)], &scene->shapes[fe__id_slot_of(of_b.shape)]);
 }
 
-typedef struct deepest {
+typedef struct part_search {
     const fe__scene *scene;
     const fe__probe *probe;
-    int32_t whole, part; // of it, the deepest so far, or -1
-    float depth;
-} deepest;
-
-static int32_t visit_part(void *context, int32_t index)
-{
-    deepest *d = context;
-    const fe__shape *shapes = d->scene->shapes;
+    int32_t whole, part; // of it, the one found, or -1
     fe_hit hit;
-    if (shapes[index].parent != d->whole || !fe__cast_inside(d->scene, d->probe, index, &hit)) return 1;
-    int32_t is_first = d->part < 0 || shapes[index].serial < shapes[d->part].serial;
-    if (d->part < 0 || hit.depth > d->depth || (hit.depth == d->depth && is_first))
-        d->part = index, d->depth = hit.depth;
+} part_search;
+
+static int32_t visit_first_part(void *context, int32_t index)
+{
+    part_search *s = context;
+    if (s->part < 0 && s->scene->shapes[index].parent == s->whole &&
+        fe__cast_inside(s->scene, s->probe, index, &s->hit))
+        s->part = index;
+    return s->part < 0;
+}
+
+static int32_t visit_deepest_part(void *context, int32_t index)
+{
+    part_search *s = context;
+    const fe__shape *shapes = s->scene->shapes;
+    fe_hit hit;
+    if (shapes[index].parent != s->whole || !fe__cast_inside(s->scene, s->probe, index, &hit)) return 1;
+    int32_t is_first = s->part < 0 || shapes[index].serial < shapes[s->part].serial;
+    if (s->part < 0 || hit.depth > s->hit.depth || (hit.depth == s->hit.depth && is_first))
+        s->part = index, s->hit = hit;
     return 1;
 }
 
-// A compound is reported once, by the part that is overlapped deepest: this one?
-static int32_t is_deepest_part(const search *s, int32_t index)
+// A compound is reported once, when the walk meets the first of its parts that are overlapped, and by the part that is
+// overlapped deepest. 0: not now
+static int32_t meet_part(const search *s, int32_t index, fe_hit *out)
 {
-    deepest d = {.scene = s->scene, .probe = s->probe, .whole = s->scene->shapes[index].parent, .part = -1};
-    if (d.whole < 0) return 1;
-    walk_box(s->scene, &s->probe->way, visit_part, &d);
-    return d.part == index;
+    part_search p = {.scene = s->scene, .probe = s->probe, .whole = s->scene->shapes[index].parent, .part = -1};
+    walk_box(s->scene, &s->probe->way, visit_first_part, &p);
+    if (p.part != index) return 0;
+    walk_box(s->scene, &s->probe->way, visit_deepest_part, &p);
+    *out = p.hit;
+    return 1;
 }
 
 static int32_t visit_shapes(void *context, int32_t index)
 {
     search *s = context;
+    const fe__shape *shape = &s->scene->shapes[index];
     fe_hit hit;
-    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit) ||
-        !is_deepest_part(s, index))
-        return 1;
+    if (!fe__scene_counts(s->scene, shape)) return 1;
+    if (!(shape->parent < 0 ? fe__cast_inside(s->scene, s->probe, index, &hit) : meet_part(s, index, &hit))) return 1;
     fe_overlap overlap = {.body = hit.body,
                           .shape = hit.shape,
                           .material = hit.material,
@@ -212,25 +222,23 @@ static int32_t bounds_meet(const fe__shape *shape, const fe__bounds *box)
 
 typedef struct first_in_box {
     const bounds_search *search;
-    int32_t whole, part; // of it, the first so far
+    int32_t whole, part; // of it, the first met, or -1
 } first_in_box;
 
 static int32_t visit_first_in_box(void *context, int32_t index)
 {
     first_in_box *f = context;
-    const fe__shape *shapes = f->search->scene->shapes;
-    if (shapes[index].parent == f->whole && shapes[index].serial < shapes[f->part].serial &&
-        bounds_meet(&shapes[index], f->search->box))
-        f->part = index;
-    return 1;
+    const fe__shape *shape = &f->search->scene->shapes[index];
+    if (f->part < 0 && shape->parent == f->whole && bounds_meet(shape, f->search->box)) f->part = index;
+    return f->part < 0;
 }
 
-// A compound is reported once, by the first of its parts that meets the box: this one?
+// A compound is reported once, by the part that the walk meets first of those that meet the box: this one?
 static int32_t is_first_in_box(const bounds_search *s, int32_t index)
 {
-    const fe__shape *shapes = s->scene->shapes, *shape = &shapes[index];
-    if (shape->parent < 0) return 1;
-    first_in_box first = {s, shape->parent, index};
+    int32_t whole = s->scene->shapes[index].parent;
+    if (whole < 0) return 1;
+    first_in_box first = {s, whole, -1};
     fe__tree_query(s->scene->static_tree, s->box, visit_first_in_box, &first);
     fe__tree_query(s->scene->moving_tree, s->box, visit_first_in_box, &first);
     return first.part == index;

@@ -236,7 +236,6 @@ void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_
     fe__body_update_mass(world, index);
     fe__body_link_joints(world, index);
     // locked bodies' contacts go to rows of another kind
-    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        fe__shape_material_changed(world, shape);
-    }
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        if (world->shapes[shape].parent < 0) fe__shape_material_changed(world, shape); // of its parts, too
 }

@@ -54,11 +54,16 @@ static void create_parts(fe_world *world, int32_t index)
     for (int32_t i = index; (i = fe__next_of_whole(world, index, i)) >= 0;) fe__shape_take_asset(world, i);
 }
 
+// The last first: it is the first in the list of those who use its asset.
 static void destroy_parts(fe_world *world, int32_t index)
 {
-    for (int32_t i; (i = fe__next_of_whole(world, index, index)) >= 0;) {
-        fe__shape_unlist(world, i);
-        fe__shape_forget(world, i);
+    int32_t last = index;
+    for (int32_t i = index; (i = fe__next_of_whole(world, index, i)) >= 0;) last = i;
+    while (last != index) {
+        int32_t part = last;
+        last = world->shapes[part].previous;
+        fe__shape_unlist(world, part);
+        fe__shape_forget(world, part);
     }
 }
 

@@ -94,6 +94,7 @@ static void what_was_given_is_read_back(void **state)
     fe_store *store = new_store(NULL);
     fe_compound_part p[3] = {new_part(), new_part(), new_part()}, read;
     p[0].density = 0, p[0].user_data = UINT64_MAX;
+    p[0].material.restitution = 7; // does not count
     p[1].own_material = 1, p[1].material.static_friction = 2, p[1].material.user_id = 5;
     p[1].frame.position.x = 3, p[1].frame.rotation.y = 1, p[1].frame.rotation.w = 0;
     fe_geometry_hull(&p[2].geometry, new_hull(store));
@@ -169,11 +170,13 @@ static void a_part_out_of_range_is_named(void **state)
     BAD_PART(p[1].frame.rotation.w = 0, FE_ERROR_ARGUMENT, "rotation");
     BAD_PART(p[1].frame.rotation.x = INFINITE, FE_ERROR_ARGUMENT, "rotation");
     BAD_PART(p[1].own_material = 2, FE_ERROR_ARGUMENT, "own_material");
-    BAD_PART(p[1].material.restitution = 1.5f, FE_ERROR_ARGUMENT, "restitution");
+    BAD_PART((p[1].own_material = 1, p[1].material.restitution = 1.5f), FE_ERROR_ARGUMENT, "restitution");
     BAD_PART(p[1].geometry.half_extents.x = 0, FE_ERROR_ARGUMENT, "half_extents.x");
     BAD_PART(p[1].geometry.type = FE_GEOMETRY_NONE, FE_ERROR_ARGUMENT, "type is 0");
     BAD_PART(p[1].geometry.type = 12345, FE_ERROR_ARGUMENT, "type is 12345");
     BAD_PART(p[1].geometry.reserved[0] = 1, FE_ERROR_ARGUMENT, "reserved");
+    BAD_PART(p[1].geometry.struct_size = sizeof(fe_geometry) + 8, FE_ERROR_ARGUMENT, "geometry.struct_size");
+    BAD_PART(p[1].geometry.struct_size = 1u << 20, FE_ERROR_ARGUMENT, "geometry.struct_size");
     BAD_PART(p[1].struct_size = 3, FE_ERROR_ARGUMENT, "struct_size");
     BAD_PART(p[1].struct_size = sizeof *p + 8, FE_ERROR_ARGUMENT, "stride");
     BAD_PART(fe_geometry_plane(&p[1].geometry, 0, 1, 0, 0), FE_ERROR_UNSUPPORTED, "no plane");

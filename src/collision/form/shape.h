@@ -10,10 +10,7 @@ enum {
     FE__SHAPE_IN_PLANES = 8, // planes are in a list, not in a tree
     FE__SHAPE_JUDGED = 32,   // the pair filter judges its new pairs
     FE__SHAPE_ONE_WAY = 64,  // holds back only what comes against one_way
-    FE__SHAPE_MOVED = 16,    // in the list of proxies whose box is new: looks for pairs in the next step
-    // of a part of a compound: these are not the compound's
-    FE__SHAPE_OWN_MATERIAL = 128,
-    FE__SHAPE_OWN_DENSITY = 256
+    FE__SHAPE_MOVED = 16     // in the list of proxies whose box is new: looks for pairs in the next step
 };
 
 // A serial holds, from the low bits, the number of a part + 1 (0: no part), then that of creation. So parts come behind
