@@ -1,0 +1,22 @@
+// light.h - what colour a point of a face has: sun, sky and haze. Colours are linear light, 0..1, until the end.
+#ifndef PICTURE_LIGHT_H
+#define PICTURE_LIGHT_H
+#include "shadow.h"
+
+typedef struct light {
+    const shadow *shadow;
+    vec up, target; ///< in the camera's space
+    double radius;
+} light;
+
+/// @param down  0 at the upper edge of the picture, 1 at the lower
+vec light_background(double down);
+/// @param ray   through the point, its z is 1
+/// @param down      as above: what haze hides has the background's colour
+/// @param out_haze  0: none, 1: nothing else is seen
+vec light_triangle(const light *l, const triangle *t, vec ray, double down, double *out_haze);
+/// The square root is the gamma, 2 for 2.2.
+vec light_of_bytes(uint32_t rgba);
+uint8_t light_to_byte(double linear);
+
+#endif

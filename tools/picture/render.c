@@ -1,0 +1,282 @@
+// render.c - picture_render: triangles into samples, four a pixel; each pixel is lit once for every triangle in it.
+#include "light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NEAREST 0.1  // m, what is nearer is not seen
+#define BEYOND 1.25  // of the picture's half width and height: what is farther out is cut off
+#define OUTLINE 0.42 // light that is left where a body ends
+#define HIDDEN 100   // opacity of lines behind something, of 255
+enum { FINE = 2, SAMPLES = FINE * FINE, CUTS = 5, MOST_CORNERS = 3 + CUTS };
+
+typedef struct scene {
+    camera camera;
+    light light;
+    shadow shadow;
+    triangle *triangles;
+    layer seen;        // numbers of triangles
+    uint32_t *overlay; // lines and what is see-through; NULL: there is none
+    double focal;      // samples
+} scene;
+
+// ---- into samples --------------------------------------------------------------------------------------------------
+static raster_point project(const scene *s, vec p)
+{
+    raster_point at = {0.5 * s->seen.width + s->focal * p.x / p.z, 0.5 * s->seen.height - s->focal * p.y / p.z};
+    return at;
+}
+
+static vec ray_through(const scene *s, double x, double y)
+{
+    return make_vec((x - 0.5 * s->seen.width) / s->focal, (0.5 * s->seen.height - y) / s->focal, 1.0);
+}
+
+// 1 / z over the samples of the plane n p = k is n ray / k
+static layer_plane plane_of(const scene *s, const triangle *t)
+{
+    layer_plane plane = {.least = 1.0 / NEAREST, .most = 0.0};
+    vec n = scale(1.0 / dot(t->normal, t->corners[0]), t->normal);
+    for (int i = 0; i < 3; ++i) {
+        double z = t->corners[i].z > NEAREST ? t->corners[i].z : NEAREST;
+        plane.least = 1.0 / z < plane.least ? 1.0 / z : plane.least;
+        plane.most = 1.0 / z > plane.most ? 1.0 / z : plane.most;
+    }
+    plane.a = n.x / s->focal, plane.b = -n.y / s->focal;
+    plane.c = n.z - 0.5 * (plane.a * s->seen.width + plane.b * s->seen.height);
+    return plane;
+}
+
+// Distance inside the near plane, or a side of the pyramid that is a bit wider than the picture
+static double inside(const scene *s, vec p, int side)
+{
+    double wide = BEYOND * 0.5 * s->seen.width / s->focal, high = BEYOND * 0.5 * s->seen.height / s->focal;
+    switch (side) {
+    case 0:
+        return p.z - NEAREST;
+    case 1:
+        return wide * p.z - p.x;
+    case 2:
+        return wide * p.z + p.x;
+    case 3:
+        return high * p.z - p.y;
+    default:
+        return high * p.z + p.y;
+    }
+}
+
+// A convex polygon, cut by one side (Sutherland and Hodgman, 1974). @return corners that are left
+static int cut(const scene *s, int side, const vec *in, int count, vec *out)
+{
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+        vec a = in[i], b = in[(i + 1) % count];
+        double da = inside(s, a, side), db = inside(s, b, side);
+        if (da >= 0.0) out[kept++] = a;
+        if ((da >= 0.0) != (db >= 0.0)) out[kept++] = mix(a, b, da / (da - db));
+    }
+    return kept;
+}
+
+typedef void fill(scene *s, const raster_point corners[3], const layer_plane *depth, int32_t number);
+
+static void fill_polygon(scene *s, const vec corners[3], const layer_plane *depth, int32_t number, fill *fill)
+{
+    vec polygons[2][MOST_CORNERS] = {{corners[0], corners[1], corners[2]}};
+    int count = 3, now = 0;
+    for (int side = 0; side < CUTS && count > 2; ++side) {
+        count = cut(s, side, polygons[now], count, polygons[!now]);
+        now = !now;
+    }
+    for (int i = 2; i < count; ++i) {
+        const vec *p = polygons[now];
+        raster_point at[3] = {project(s, p[0]), project(s, p[i - 1]), project(s, p[i])};
+        fill(s, at, depth, number);
+    }
+}
+
+static void fill_seen(scene *s, const raster_point corners[3], const layer_plane *depth, int32_t number)
+{
+    layer_draw(&s->seen, corners, depth, number);
+}
+
+// ---- lines and what is see-through: over the picture, paler where something is before them -------------------------
+typedef struct glass {
+    scene *scene;
+    const layer_plane *depth;
+    uint32_t before, behind; // rgba
+} glass;
+
+static void lay_over(void *user, int32_t row, int32_t begin, int32_t end)
+{
+    const glass *g = user;
+    const scene *s = g->scene;
+    const float *near = s->seen.near + (int64_t)row * s->seen.width;
+    uint32_t *overlay = s->overlay + (int64_t)row * s->seen.width;
+    for (int32_t x = begin; x < end; ++x) {
+        uint32_t rgba = plane_at(g->depth, x + 0.5, row + 0.5) > (double)near[x] ? g->before : g->behind;
+        if (rgba >> 24 >= overlay[x] >> 24) overlay[x] = rgba;
+    }
+}
+
+static void fill_glass(scene *s, const raster_point corners[3], const layer_plane *depth, int32_t number)
+{
+    glass g = {s, depth, s->triangles[number].rgba, 0};
+    raster_triangle(corners, s->seen.width, s->seen.height, lay_over, &g);
+}
+
+// 1 / z along a line changes evenly from sample to sample; 1 % nearer than it is, a line on a face is seen
+static void draw_line(scene *s, vec from, vec to, uint32_t rgba)
+{
+    if (from.z < NEAREST || to.z < NEAREST) return;
+    raster_point a = project(s, from), b = project(s, to);
+    double dx = b.x - a.x, dy = b.y - a.y, l = sqrt(dx * dx + dy * dy), width = s->seen.width / 1000.0;
+    if (!(l > 0.01) || l > 8.0 * s->seen.width) return;
+    double far = 1.01 / from.z, slope = (1.01 / to.z - far) / (l * l), ex = dx / l * width, ey = dy / l * width;
+    layer_plane depth = {slope * dx, slope * dy, far - slope * (dx * a.x + dy * a.y), 0.0, 1.0 / NEAREST};
+    raster_point c[4] = {{a.x - ex - ey, a.y - ey + ex},
+                         {b.x + ex - ey, b.y + ey + ex},
+                         {b.x + ex + ey, b.y + ey - ex},
+                         {a.x - ex + ey, a.y - ey - ex}};
+    raster_point other[3] = {c[0], c[2], c[3]};
+    glass g = {s, &depth, rgba, (rgba & 0xffffff) | (uint32_t)HIDDEN << 24};
+    raster_triangle(c, s->seen.width, s->seen.height, lay_over, &g);
+    raster_triangle(other, s->seen.width, s->seen.height, lay_over, &g);
+}
+
+static int32_t draw_overlay(scene *s, const fe_world *world, const picture_view *view, int32_t count)
+{
+    fe_draw_vertex *v;
+    int32_t lines = draw_all(fe_world_draw_lines, world, view, view->parts & ~(uint32_t)FE_DRAW_SHAPES, &v), glass = 0;
+    for (int32_t i = 0; i < count; ++i) glass += s->triangles[i].rgba >> 24 < 255;
+    if (lines > 0 || glass > 0) {
+        s->overlay = calloc((size_t)s->seen.width * (size_t)s->seen.height, sizeof *s->overlay);
+        if (!s->overlay) lines = FE_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; s->overlay && i < count; ++i) {
+        layer_plane depth = plane_of(s, s->triangles + i);
+        if (s->triangles[i].rgba >> 24 < 255) fill_polygon(s, s->triangles[i].corners, &depth, i, fill_glass);
+    }
+    for (int32_t i = 0; s->overlay && i + 1 < lines; i += 2) {
+        vec from = into_camera(&s->camera, make_vec((double)v[i].x, (double)v[i].y, (double)v[i].z));
+        vec to = into_camera(&s->camera, make_vec((double)v[i + 1].x, (double)v[i + 1].y, (double)v[i + 1].z));
+        draw_line(s, from, to, v[i].rgba);
+    }
+    free(v);
+    return lines < 0 ? lines : FE_OK;
+}
+
+// ---- pixels --------------------------------------------------------------------------------------------------------
+static int32_t body_of(const scene *s, int32_t number)
+{
+    return number == LAYER_NOTHING ? LAYER_NOTHING : s->triangles[number].body;
+}
+
+// Is a neighbour of this sample of another body, and farther?
+static int ends_here(const scene *s, int32_t x, int32_t y)
+{
+    const int32_t w = s->seen.width, h = s->seen.height, step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    int64_t at = (int64_t)y * w + x;
+    for (int i = 0; i < 4; ++i) {
+        int32_t u = x + step[i][0], v = y + step[i][1];
+        int64_t next = (int64_t)v * w + u;
+        if (u < 0 || v < 0 || u >= w || v >= h || s->seen.owner[next] == s->seen.owner[at]) continue;
+        if (s->seen.near[at] > s->seen.near[next] && body_of(s, s->seen.owner[next]) != body_of(s, s->seen.owner[at]))
+            return 1;
+    }
+    return 0;
+}
+
+static vec light_sample(const scene *s, int32_t x, int32_t y, int32_t number, double *out_haze)
+{
+    double down = (y + 0.5) / s->seen.height;
+    *out_haze = 1.0;
+    if (number == LAYER_NOTHING) return light_background(down);
+    return light_triangle(&s->light, s->triangles + number, ray_through(s, x + 0.5, y + 0.5), down, out_haze);
+}
+
+// Is there one triangle alone, in the pixel and in the samples around it?
+static int is_plain(const scene *s, int32_t x, int32_t y)
+{
+    if (x < 1 || y < 1 || x + FINE >= s->seen.width || y + FINE >= s->seen.height) return 0;
+    const int32_t *at = s->seen.owner + (int64_t)(y - 1) * s->seen.width + x - 1, number = *at;
+    int32_t others = 0;
+    for (int32_t j = 0; j < FINE + 2; ++j, at += s->seen.width)
+        for (int32_t i = 0; i < FINE + 2; ++i) others |= at[i] ^ number;
+    return !others;
+}
+
+static vec light_pixel(const scene *s, int32_t px, int32_t py)
+{
+    int32_t numbers[SAMPLES];
+    vec colours[SAMPLES], sum = {0, 0, 0};
+    double hazes[SAMPLES];
+    if (!s->overlay && is_plain(s, FINE * px, FINE * py)) {
+        int64_t at = (int64_t)FINE * py * s->seen.width + FINE * px;
+        return light_sample(s, FINE * px, FINE * py, s->seen.owner[at], hazes);
+    }
+    for (int32_t i = 0; i < SAMPLES; ++i) {
+        int32_t x = FINE * px + i % FINE, y = FINE * py + i / FINE, k = 0;
+        int64_t at = (int64_t)y * s->seen.width + x;
+        numbers[i] = s->seen.owner[at];
+        while (numbers[k] != numbers[i]) ++k;
+        if (k == i) colours[i] = light_sample(s, x, y, numbers[i], hazes + i);
+        vec colour = colours[k];
+        if (hazes[k] < 1.0 && ends_here(s, x, y)) colour = scale(OUTLINE + (1.0 - OUTLINE) * hazes[k], colour);
+        if (s->overlay && s->overlay[at])
+            colour = mix(colour, light_of_bytes(s->overlay[at]), (s->overlay[at] >> 24) / 255.0);
+        sum = add(sum, colour);
+    }
+    return scale(1.0 / SAMPLES, sum);
+}
+
+// ---- the whole -----------------------------------------------------------------------------------------------------
+static int32_t prepare(scene *s, int32_t width, int32_t height)
+{
+    size_t samples = (size_t)SAMPLES * (size_t)width * (size_t)height;
+    s->seen.width = FINE * width, s->seen.height = FINE * height;
+    s->seen.near = calloc(samples, sizeof *s->seen.near), s->seen.owner = malloc(samples * sizeof *s->seen.owner);
+    if (!s->seen.near || !s->seen.owner) return FE_ERROR_MEMORY;
+    memset(s->seen.owner, 0xff, samples * sizeof *s->seen.owner); // LAYER_NOTHING
+    return FE_OK;
+}
+
+static void draw_triangles(scene *s, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        const triangle *t = s->triangles + i;
+        double facing = dot(t->normal, t->corners[0]);
+        if (t->rgba >> 24 < 255 || !(facing < 0.0 || (t->two_sided && facing > 0.0))) continue;
+        layer_plane depth = plane_of(s, t);
+        fill_polygon(s, t->corners, &depth, i, fill_seen);
+    }
+}
+
+static int32_t render(scene *s, const fe_world *world, const picture_view *view, int32_t width, int32_t height)
+{
+    int32_t result = prepare(s, width, height);
+    int32_t count = result == FE_OK ? gather_triangles(world, view, &s->camera, &s->triangles) : result;
+    if (count < 0) return count;
+    draw_triangles(s, count);
+    result = shadow_make(view, &s->camera, s->triangles, count, width + width / 2, &s->shadow);
+    return result == FE_OK ? draw_overlay(s, world, view, count) : result;
+}
+
+int32_t picture_render(const fe_world *world, const picture_view *view, int32_t width, int32_t height, uint8_t *out_rgb)
+{
+    if (width < PICTURE_LEAST || width > PICTURE_MOST || height < PICTURE_LEAST || height > PICTURE_MOST)
+        return FE_ERROR_ARGUMENT;
+    scene s = {.camera = make_camera(view), .focal = view->focal * FINE * width};
+    vec target = make_vec(view->target.x - view->eye.x, view->target.y - view->eye.y, view->target.z - view->eye.z);
+    s.light =
+        (light){&s.shadow, into_camera(&s.camera, make_vec(0, 1, 0)), into_camera(&s.camera, target), view->radius};
+    int32_t result = render(&s, world, view, width, height);
+    for (int32_t i = 0; result == FE_OK && i < width * height; ++i) {
+        vec colour = light_pixel(&s, i % width, i / width);
+        out_rgb[3 * i] = light_to_byte(colour.x), out_rgb[3 * i + 1] = light_to_byte(colour.y);
+        out_rgb[3 * i + 2] = light_to_byte(colour.z);
+    }
+    shadow_free(&s.shadow);
+    free(s.triangles), free(s.seen.near), free(s.seen.owner), free(s.overlay);
+    return result;
+}

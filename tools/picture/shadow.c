@@ -1,0 +1,93 @@
+// shadow.c - see shadow.h.
+//
+// A face does not shade itself (Isidoro, Shadow mapping: GPU-based tips and techniques, GDC 2006, receiver plane depth
+// bias): each texel is compared with the depth that the face's own plane has at that texel's centre, exactly where the
+// map's depth was taken. What is left is rounding and the bend to the next face.
+#include "shadow.h"
+
+#include <stdlib.h>
+
+#define STEEPEST 0.06 // cosine: flatter rays light nothing
+#define MARGIN 1.0    // texels that a caster must be nearer: hollows that bend a little do not shade themselves
+enum { TAPS = 4 };    // texels of a side that are asked: half shadows are as wide
+
+static raster_point texel_of(const shadow *s, vec point)
+{
+    vec p = sub(point, s->centre);
+    double middle = 0.5 * s->map.width;
+    raster_point at = {middle + s->texels * dot(p, s->across), middle + s->texels * dot(p, s->along)};
+    return at;
+}
+
+// In texels, > 0 for what is within reach
+static double depth_of(const shadow *s, vec point)
+{
+    return s->texels * dot(sub(point, s->centre), s->sun) + 100.0 * s->map.width;
+}
+
+// depth changes by a and b from texel to texel
+static void slope_of(const shadow *s, vec normal, double *a, double *b)
+{
+    double n = dot(normal, s->sun);
+    *a = -dot(normal, s->across) / n, *b = -dot(normal, s->along) / n;
+}
+
+static void cast(shadow *s, const triangle *t)
+{
+    raster_point corners[3];
+    layer_plane plane = {.least = 1e30, .most = 0.0};
+    double n = dot(t->normal, s->sun);
+    if ((!t->two_sided && n <= 0.0) || (n < 1e-6 && n > -1e-6)) return; // what is closed is drawn by its lit side
+    for (int i = 0; i < 3; ++i) {
+        double d = depth_of(s, t->corners[i]);
+        corners[i] = texel_of(s, t->corners[i]);
+        plane.least = d < plane.least ? d : plane.least, plane.most = d > plane.most ? d : plane.most;
+    }
+    slope_of(s, t->normal, &plane.a, &plane.b);
+    plane.c = depth_of(s, t->corners[0]) - plane.a * corners[0].x - plane.b * corners[0].y;
+    layer_draw(&s->map, corners, &plane, 0);
+}
+
+int32_t shadow_make(const picture_view *view, const camera *camera, const triangle *triangles, int32_t count,
+                    int32_t size, shadow *out)
+{
+    shadow s = {.map = {size, size, calloc((size_t)size * (size_t)size, sizeof(float)), NULL}};
+    vec sun = make_vec((double)view->sun.x, (double)view->sun.y, (double)view->sun.z);
+    vec target = make_vec(view->target.x - view->eye.x, view->target.y - view->eye.y, view->target.z - view->eye.z);
+    *out = s;
+    if (!s.map.near) return FE_ERROR_MEMORY;
+    s.sun = unit(into_camera(camera, sun)), s.centre = into_camera(camera, target);
+    vec aside = s.sun.x * s.sun.x < 0.5 ? make_vec(1.0, 0.0, 0.0) : make_vec(0.0, 1.0, 0.0);
+    s.across = unit(cross(aside, s.sun)), s.along = cross(s.sun, s.across);
+    s.texels = 0.5 * size / view->radius;
+    for (int32_t i = 0; i < count; ++i)
+        if (triangles[i].rgba >> 24 == 255) cast(&s, triangles + i);
+    *out = s;
+    return FE_OK;
+}
+
+void shadow_free(shadow *s) { free(s->map.near); }
+
+// The first and the last of the texels asked count by how much of them the square of TAPS - 1 texels around the point
+// covers
+double shadow_light(const shadow *s, vec point, vec normal)
+{
+    if (!(dot(normal, s->sun) > STEEPEST)) return 0.0;
+    raster_point at = texel_of(s, point);
+    double left = at.x - 0.5 * (TAPS - 1), top = at.y - 0.5 * (TAPS - 1), a, b, sum = 0.0;
+    if (!(left >= 0.0 && top >= 0.0 && left < s->map.width - TAPS && top < s->map.height - TAPS)) return 1.0;
+    int32_t x = (int32_t)left, y = (int32_t)top;
+    slope_of(s, normal, &a, &b);
+    double first_x = 1.0 - (left - x), first_y = 1.0 - (top - y), depth = depth_of(s, point) + MARGIN;
+    for (int32_t j = 0; j < TAPS; ++j) {
+        const float *row = s->map.near + (int64_t)(y + j) * s->map.width + x;
+        double weight = j == 0 ? first_y : j == TAPS - 1 ? 1.0 - first_y : 1.0, own = 0.0;
+        double start = depth + b * (y + j + 0.5 - at.y) + a * (x + 0.5 - at.x);
+        for (int32_t i = 0; i < TAPS; ++i) {
+            double part = i == 0 ? first_x : i == TAPS - 1 ? 1.0 - first_x : 1.0;
+            if ((double)row[i] <= start + a * i) own += part;
+        }
+        sum += weight * own;
+    }
+    return sum / ((TAPS - 1) * (TAPS - 1));
+}
