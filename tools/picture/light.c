@@ -45,22 +45,22 @@ static vec normal_at(const triangle *t, vec ray)
     return dot(n, n) > 0.0 ? n : t->normal;
 }
 
-vec light_triangle(const light *l, const triangle *t, vec ray, double down, double *out_haze)
+lit light_triangle(const light *l, const triangle *t, vec ray, double down)
 {
     vec point = scale(dot(t->normal, t->corners[0]) / dot(t->normal, ray), ray);
     vec face = t->normal, normal = t->flat ? face : normal_at(t, ray);
     if (dot(face, ray) > 0.0) face = scale(-1.0, face), normal = scale(-1.0, normal);
     vec off = sub(point, l->target);
     double far = dot(off, off), r = l->radius;
-    double haze = far > r * r ? smooth_step(r, 3.0 * r, sqrt(far)) : 0.0;
-    *out_haze = haze;
-    if (haze >= 1.0) return light_background(down);
-    double lit = dot(normal, l->shadow->sun);
-    lit = lit > 0.0 ? lit * shadow_light(l->shadow, point, face) : 0.0;
+    lit out = {.haze = far > r * r ? smooth_step(r, 3.0 * r, sqrt(far)) : 0.0};
+    if (out.haze >= 1.0) return out.colour = light_background(down), out;
+    double slant = dot(normal, l->shadow->sun), open = slant > 0.0 ? shadow_light(l->shadow, point, face) : 0.0;
     vec sky = mix(EARTH, SKY, 0.5 + 0.5 * dot(normal, l->up));
     vec own = mix(light_of_bytes(t->rgba), make_vec(1.0, 1.0, 1.0), PALE);
-    vec colour = times(own, add(sky, scale(lit, SUN)));
-    colour = scale(1.0 + TINT * (t->body * 2 % TINTS - TINTS / 2), colour);
-    colour = make_vec(expose(colour.x), expose(colour.y), expose(colour.z));
-    return haze > 0.0 ? mix(colour, light_background(down), haze) : colour;
+    vec c = times(own, slant > 0.0 ? add(sky, scale(slant * open, SUN)) : sky);
+    c = scale(1.0 + TINT * (t->body * 2 % TINTS - TINTS / 2), c);
+    c = make_vec(expose(c.x), expose(c.y), expose(c.z));
+    out.half = open > 0.0 && open < 1.0;
+    out.colour = out.haze > 0.0 ? mix(c, light_background(down), out.haze) : c;
+    return out;
 }

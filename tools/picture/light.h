@@ -9,12 +9,17 @@ typedef struct light {
     double radius;
 } light;
 
+typedef struct lit {
+    vec colour;
+    double haze; ///< 0: none, 1: nothing else is seen
+    int half;    ///< at the edge of a shadow
+} lit;
+
 /// @param down  0 at the upper edge of the picture, 1 at the lower
 vec light_background(double down);
 /// @param ray   through the point, its z is 1
-/// @param down      as above: what haze hides has the background's colour
-/// @param out_haze  0: none, 1: nothing else is seen
-vec light_triangle(const light *l, const triangle *t, vec ray, double down, double *out_haze);
+/// @param down  as above: what haze hides has the background's colour
+lit light_triangle(const light *l, const triangle *t, vec ray, double down);
 /// The square root is the gamma, 2 for 2.2.
 vec light_of_bytes(uint32_t rgba);
 uint8_t light_to_byte(double linear);

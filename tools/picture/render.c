@@ -187,12 +187,11 @@ static int ends_here(const scene *s, int32_t x, int32_t y)
     return 0;
 }
 
-static vec light_sample(const scene *s, int32_t x, int32_t y, int32_t number, double *out_haze)
+static lit light_sample(const scene *s, int32_t x, int32_t y, int32_t number)
 {
     double down = (y + 0.5) / s->seen.height;
-    *out_haze = 1.0;
-    if (number == LAYER_NOTHING) return light_background(down);
-    return light_triangle(&s->light, s->triangles + number, ray_through(s, x + 0.5, y + 0.5), down, out_haze);
+    if (number == LAYER_NOTHING) return (lit){light_background(down), 1.0, 0};
+    return light_triangle(&s->light, s->triangles + number, ray_through(s, x + 0.5, y + 0.5), down);
 }
 
 // Is there one triangle alone, in the pixel and in the samples around it?
@@ -206,23 +205,23 @@ static int is_plain(const scene *s, int32_t x, int32_t y)
     return !others;
 }
 
+// Each triangle is lit once, but at the edges of shadows
 static vec light_pixel(const scene *s, int32_t px, int32_t py)
 {
     int32_t numbers[SAMPLES];
-    vec colours[SAMPLES], sum = {0, 0, 0};
-    double hazes[SAMPLES];
-    if (!s->overlay && is_plain(s, FINE * px, FINE * py)) {
-        int64_t at = (int64_t)FINE * py * s->seen.width + FINE * px;
-        return light_sample(s, FINE * px, FINE * py, s->seen.owner[at], hazes);
-    }
+    lit lights[SAMPLES];
+    vec sum = {0, 0, 0};
+    int plain = !s->overlay && is_plain(s, FINE * px, FINE * py);
     for (int32_t i = 0; i < SAMPLES; ++i) {
         int32_t x = FINE * px + i % FINE, y = FINE * py + i / FINE, k = 0;
         int64_t at = (int64_t)y * s->seen.width + x;
         numbers[i] = s->seen.owner[at];
         while (numbers[k] != numbers[i]) ++k;
-        if (k == i) colours[i] = light_sample(s, x, y, numbers[i], hazes + i);
-        vec colour = colours[k];
-        if (hazes[k] < 1.0 && ends_here(s, x, y)) colour = scale(OUTLINE + (1.0 - OUTLINE) * hazes[k], colour);
+        lights[i] = k < i && !lights[k].half ? lights[k] : light_sample(s, x, y, numbers[i]);
+        if (plain && !lights[i].half) return lights[i].colour;
+        vec colour = lights[i].colour;
+        if (lights[i].haze < 1.0 && ends_here(s, x, y))
+            colour = scale(OUTLINE + (1.0 - OUTLINE) * lights[i].haze, colour);
         if (s->overlay && s->overlay[at])
             colour = mix(colour, light_of_bytes(s->overlay[at]), (s->overlay[at] >> 24) / 255.0);
         sum = add(sum, colour);

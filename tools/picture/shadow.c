@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 #define STEEPEST 0.06 // cosine: flatter rays light nothing
-#define MARGIN 1.0    // texels that a caster must be nearer: hollows that bend a little do not shade themselves
-enum { TAPS = 4 };    // texels of a side that are asked: half shadows are as wide
+#define MARGIN 1.8    // texels that a caster must be nearer: hollows that bend a little do not shade themselves
+enum { TAPS = 4 };    // texels of a side that are asked
 
 static raster_point texel_of(const shadow *s, vec point)
 {
@@ -57,7 +57,9 @@ int32_t shadow_make(const picture_view *view, const camera *camera, const triang
     *out = s;
     if (!s.map.near) return FE_ERROR_MEMORY;
     s.sun = unit(into_camera(camera, sun)), s.centre = into_camera(camera, target);
-    vec aside = s.sun.x * s.sun.x < 0.5 ? make_vec(1.0, 0.0, 0.0) : make_vec(0.0, 1.0, 0.0);
+    // Edges along the world's axes cross the map's rows at a good angle: their steps are short, and are smoothed away
+    vec aside = into_camera(camera, make_vec(0.9, 0.1, 0.4)), up = into_camera(camera, make_vec(0.0, 1.0, 0.0));
+    if (dot(aside, s.sun) > 0.97 * length(aside)) aside = up;
     s.across = unit(cross(aside, s.sun)), s.along = cross(s.sun, s.across);
     s.texels = 0.5 * size / view->radius;
     for (int32_t i = 0; i < count; ++i)
@@ -68,26 +70,30 @@ int32_t shadow_make(const picture_view *view, const camera *camera, const triang
 
 void shadow_free(shadow *s) { free(s->map.near); }
 
-// The first and the last of the texels asked count by how much of them the square of TAPS - 1 texels around the point
-// covers
+// Of a cubic B-spline: shadows have no steps where their edges cross rows of texels
+static void weigh(double t, float out[TAPS])
+{
+    double u = 1.0 - t;
+    out[0] = (float)(u * u * u / 6.0), out[3] = (float)(t * t * t / 6.0);
+    out[1] = (float)(2.0 / 3.0 - t * t * (1.0 - 0.5 * t)), out[2] = (float)(2.0 / 3.0 - u * u * (1.0 - 0.5 * u));
+}
+
 double shadow_light(const shadow *s, vec point, vec normal)
 {
     if (!(dot(normal, s->sun) > STEEPEST)) return 0.0;
     raster_point at = texel_of(s, point);
-    double left = at.x - 0.5 * (TAPS - 1), top = at.y - 0.5 * (TAPS - 1), a, b, sum = 0.0;
+    double left = at.x - 1.5, top = at.y - 1.5, a, b;
     if (!(left >= 0.0 && top >= 0.0 && left < s->map.width - TAPS && top < s->map.height - TAPS)) return 1.0;
     int32_t x = (int32_t)left, y = (int32_t)top;
+    float across[TAPS], along[TAPS], sum = 0.0f;
+    weigh(left - x, across), weigh(top - y, along);
     slope_of(s, normal, &a, &b);
-    double first_x = 1.0 - (left - x), first_y = 1.0 - (top - y), depth = depth_of(s, point) + MARGIN;
+    double depth = depth_of(s, point) + MARGIN + b * (y + 0.5 - at.y) + a * (x + 0.5 - at.x);
     for (int32_t j = 0; j < TAPS; ++j) {
         const float *row = s->map.near + (int64_t)(y + j) * s->map.width + x;
-        double weight = j == 0 ? first_y : j == TAPS - 1 ? 1.0 - first_y : 1.0, own = 0.0;
-        double start = depth + b * (y + j + 0.5 - at.y) + a * (x + 0.5 - at.x);
-        for (int32_t i = 0; i < TAPS; ++i) {
-            double part = i == 0 ? first_x : i == TAPS - 1 ? 1.0 - first_x : 1.0;
-            if ((double)row[i] <= start + a * i) own += part;
-        }
-        sum += weight * own;
+        float start = (float)(depth + b * j), own = 0.0f;
+        for (int32_t i = 0; i < TAPS; ++i) own += row[i] <= start + (float)a * (float)i ? across[i] : 0.0f;
+        sum += along[j] * own;
     }
-    return sum / ((TAPS - 1) * (TAPS - 1));
+    return sum < 0.9999f ? (double)sum : 1.0; // weights add up to 1 but for rounding
 }
