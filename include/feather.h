@@ -1014,7 +1014,7 @@ FE_API fe_result fe_compound_create(fe_store *store, const fe_compound_part *par
 /// What a compound is.
 typedef struct fe_compound_info {
     uint32_t struct_size;
-    int32_t part_count;
+    int32_t part_count;   ///< 1..65535
     fe_vec3 lower, upper; ///< least and greatest corner of the bounds of its parts, m, in the compound's space
     int64_t bytes;        ///< of memory, without the assets of its parts
 } fe_compound_info;
