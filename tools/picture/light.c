@@ -45,6 +45,12 @@ static vec normal_at(const triangle *t, vec ray)
     return dot(n, n) > 0.0 ? n : t->normal;
 }
 
+vec light_own(const triangle *t)
+{
+    vec pale = mix(light_of_bytes(t->rgba), make_vec(1.0, 1.0, 1.0), PALE);
+    return scale(1.0 + TINT * (t->body * 2 % TINTS - TINTS / 2), pale);
+}
+
 lit light_triangle(const light *l, const triangle *t, vec ray, double down)
 {
     vec point = scale(dot(t->normal, t->corners[0]) / dot(t->normal, ray), ray);
@@ -56,9 +62,7 @@ lit light_triangle(const light *l, const triangle *t, vec ray, double down)
     if (out.haze >= 1.0) return out.colour = light_background(down), out;
     double slant = dot(normal, l->shadow->sun), open = slant > 0.0 ? shadow_light(l->shadow, point, face) : 0.0;
     vec sky = mix(EARTH, SKY, 0.5 + 0.5 * dot(normal, l->up));
-    vec own = mix(light_of_bytes(t->rgba), make_vec(1.0, 1.0, 1.0), PALE);
-    vec c = times(own, slant > 0.0 ? add(sky, scale(slant * open, SUN)) : sky);
-    c = scale(1.0 + TINT * (t->body * 2 % TINTS - TINTS / 2), c);
+    vec c = times(t->own, slant > 0.0 ? add(sky, scale(slant * open, SUN)) : sky);
     c = make_vec(expose(c.x), expose(c.y), expose(c.z));
     out.half = open > 0.0 && open < 1.0;
     out.colour = out.haze > 0.0 ? mix(c, light_background(down), out.haze) : c;

@@ -17,6 +17,8 @@ typedef struct lit {
 
 /// @param down  0 at the upper edge of the picture, 1 at the lower
 vec light_background(double down);
+/// The colour of a triangle, with the shade of its body.
+vec light_own(const triangle *t);
 /// @param ray   through the point, its z is 1
 /// @param down  as above: what haze hides has the background's colour
 lit light_triangle(const light *l, const triangle *t, vec ray, double down);

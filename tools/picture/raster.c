@@ -49,13 +49,13 @@ static int round_corners(const raster_point corners[3], int64_t out[3][2])
     return 1;
 }
 
-void raster_triangle(const raster_point corners[3], int32_t width, int32_t height, raster_row *tell, void *user)
+void raster_triangle(const raster_point corners[3], raster_area area, raster_row *tell, void *user)
 {
     int64_t p[3][2];
     if (!round_corners(corners, p)) return;
-    int64_t area = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
-    if (area == 0) return;
-    const int64_t *b = area > 0 ? p[1] : p[2], *c = area > 0 ? p[2] : p[1];
+    int64_t twice = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    if (twice == 0) return;
+    const int64_t *b = twice > 0 ? p[1] : p[2], *c = twice > 0 ? p[2] : p[1];
     int64_t low = p[0][1], high = p[0][1], left = p[0][0], right = p[0][0];
     for (int i = 1; i < 3; ++i) {
         low = p[i][1] < low ? p[i][1] : low, high = p[i][1] > high ? p[i][1] : high;
@@ -64,8 +64,8 @@ void raster_triangle(const raster_point corners[3], int32_t width, int32_t heigh
     const int64_t half = RASTER_ONE / 2;
     int64_t first = floor_divide(low - half, RASTER_ONE), last = floor_divide(high - half, RASTER_ONE);
     int64_t leftmost = floor_divide(left - half, RASTER_ONE), rightmost = floor_divide(right - half, RASTER_ONE) + 1;
-    first = first < 0 ? 0 : first, last = last >= height ? height - 1 : last;
-    leftmost = leftmost < 0 ? 0 : leftmost, rightmost = rightmost > width ? width : rightmost;
+    first = first < area.top ? area.top : first, last = last >= area.end ? area.end - 1 : last;
+    leftmost = leftmost < 0 ? 0 : leftmost, rightmost = rightmost > area.width ? area.width : rightmost;
     edge edges[3] = {make_edge(p[0], b, first), make_edge(b, c, first), make_edge(c, p[0], first)};
     for (int64_t row = first; row <= last; ++row) {
         int64_t begin = leftmost, end = rightmost;
@@ -85,8 +85,8 @@ static void keep_nearest(void *user, int32_t row, int32_t begin, int32_t end)
 {
     const brush *b = user;
     const layer_plane *p = b->depth;
-    float *near = b->to->near + (int64_t)row * b->to->width, least = (float)p->least, most = (float)p->most;
-    int32_t *owner = b->to->owner ? b->to->owner + (int64_t)row * b->to->width : 0, number = b->owner;
+    float *near = b->to->near + area_at(&b->to->area, 0, row), least = (float)p->least, most = (float)p->most;
+    int32_t *owner = b->to->owner ? b->to->owner + area_at(&b->to->area, 0, row) : 0, number = b->owner;
     float start = (float)(p->a * (begin + 0.5) + p->b * (row + 0.5) + p->c), step = (float)p->a;
     for (int32_t x = begin; x < end; ++x) {
         float at = start + step * (float)(x - begin);
@@ -99,5 +99,5 @@ static void keep_nearest(void *user, int32_t row, int32_t begin, int32_t end)
 void layer_draw(layer *to, const raster_point corners[3], const layer_plane *depth, int32_t owner)
 {
     brush b = {to, depth, owner};
-    raster_triangle(corners, to->width, to->height, keep_nearest, &b);
+    raster_triangle(corners, to->area, keep_nearest, &b);
 }

@@ -17,13 +17,18 @@ typedef struct raster_point {
     double x, y;
 } raster_point;
 
+/// Samples that count: columns [0, width) of the rows [top, end).
+typedef struct raster_area {
+    int32_t width, top, end;
+} raster_area;
+
 /// Tells every sample whose centre the triangle covers, whichever way it is wound. Two triangles that share an edge
 /// share no sample and leave none out.
-void raster_triangle(const raster_point corners[3], int32_t width, int32_t height, raster_row *tell, void *user);
+void raster_triangle(const raster_point corners[3], raster_area area, raster_row *tell, void *user);
 
-/// A depth and a number for each sample.
+/// A depth and a number for each sample of an area.
 typedef struct layer {
-    int32_t width, height;
+    raster_area area;
     float *near;    ///< greater is nearer, 0 is farthest
     int32_t *owner; ///< what is there, LAYER_NOTHING: nothing; or NULL: nobody asks
 } layer;
@@ -34,6 +39,11 @@ typedef struct layer_plane {
 } layer_plane;
 
 void layer_draw(layer *to, const raster_point corners[3], const layer_plane *depth, int32_t owner);
+
+static inline int64_t area_at(const raster_area *area, int32_t x, int32_t y)
+{
+    return (int64_t)(y - area->top) * area->width + x;
+}
 
 static inline double plane_at(const layer_plane *p, double x, double y)
 {

@@ -6,6 +6,7 @@
 #include "shadow.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define STEEPEST 0.06 // cosine: flatter rays light nothing
 #define MARGIN 1.8    // texels that a caster must be nearer: hollows that bend a little do not shade themselves
@@ -14,7 +15,7 @@ enum { TAPS = 4 };    // texels of a side that are asked
 static raster_point texel_of(const shadow *s, vec point)
 {
     vec p = sub(point, s->centre);
-    double middle = 0.5 * s->map.width;
+    double middle = 0.5 * s->map.area.width;
     raster_point at = {middle + s->texels * dot(p, s->across), middle + s->texels * dot(p, s->along)};
     return at;
 }
@@ -22,7 +23,7 @@ static raster_point texel_of(const shadow *s, vec point)
 // In texels, > 0 for what is within reach
 static double depth_of(const shadow *s, vec point)
 {
-    return s->texels * dot(sub(point, s->centre), s->sun) + 100.0 * s->map.width;
+    return s->texels * dot(sub(point, s->centre), s->sun) + 100.0 * s->map.area.width;
 }
 
 // depth changes by a and b from texel to texel
@@ -51,7 +52,7 @@ static void cast(shadow *s, const triangle *t)
 int32_t shadow_make(const picture_view *view, const camera *camera, const triangle *triangles, int32_t count,
                     int32_t size, shadow *out)
 {
-    shadow s = {.map = {size, size, calloc((size_t)size * (size_t)size, sizeof(float)), NULL}};
+    shadow s = {.map = {{size, 0, size}, calloc((size_t)size * (size_t)size, sizeof(float)), NULL}};
     vec sun = make_vec((double)view->sun.x, (double)view->sun.y, (double)view->sun.z);
     vec target = make_vec(view->target.x - view->eye.x, view->target.y - view->eye.y, view->target.z - view->eye.z);
     *out = s;
@@ -70,12 +71,16 @@ int32_t shadow_make(const picture_view *view, const camera *camera, const triang
 
 void shadow_free(shadow *s) { free(s->map.near); }
 
+// Four texels side by side. Each of the four is rounded as a float alone would be
+typedef float four __attribute__((vector_size(16)));
+typedef int32_t mask __attribute__((vector_size(16)));
+
 // Of a cubic B-spline: shadows have no steps where their edges cross rows of texels
-static void weigh(double t, float out[TAPS])
+static four weigh(double t)
 {
     double u = 1.0 - t;
-    out[0] = (float)(u * u * u / 6.0), out[3] = (float)(t * t * t / 6.0);
-    out[1] = (float)(2.0 / 3.0 - t * t * (1.0 - 0.5 * t)), out[2] = (float)(2.0 / 3.0 - u * u * (1.0 - 0.5 * u));
+    return (four){(float)(u * u * u / 6.0), (float)(2.0 / 3.0 - t * t * (1.0 - 0.5 * t)),
+                  (float)(2.0 / 3.0 - u * u * (1.0 - 0.5 * u)), (float)(t * t * t / 6.0)};
 }
 
 double shadow_light(const shadow *s, vec point, vec normal)
@@ -83,17 +88,17 @@ double shadow_light(const shadow *s, vec point, vec normal)
     if (!(dot(normal, s->sun) > STEEPEST)) return 0.0;
     raster_point at = texel_of(s, point);
     double left = at.x - 1.5, top = at.y - 1.5, a, b;
-    if (!(left >= 0.0 && top >= 0.0 && left < s->map.width - TAPS && top < s->map.height - TAPS)) return 1.0;
+    if (!(left >= 0.0 && top >= 0.0 && left < s->map.area.width - TAPS && top < s->map.area.end - TAPS)) return 1.0;
     int32_t x = (int32_t)left, y = (int32_t)top;
-    float across[TAPS], along[TAPS], sum = 0.0f;
-    weigh(left - x, across), weigh(top - y, along);
+    four across = weigh(left - x), along = weigh(top - y), open = {0, 0, 0, 0};
     slope_of(s, normal, &a, &b);
-    double depth = depth_of(s, point) + MARGIN + b * (y + 0.5 - at.y) + a * (x + 0.5 - at.x);
-    for (int32_t j = 0; j < TAPS; ++j) {
-        const float *row = s->map.near + (int64_t)(y + j) * s->map.width + x;
-        float start = (float)(depth + b * j), own = 0.0f;
-        for (int32_t i = 0; i < TAPS; ++i) own += row[i] <= start + (float)a * (float)i ? across[i] : 0.0f;
-        sum += along[j] * own;
+    float first = (float)(depth_of(s, point) + MARGIN + b * (y + 0.5 - at.y) + a * (x + 0.5 - at.x));
+    four least = first + (float)a * (four){0, 1, 2, 3};
+    for (int32_t j = 0; j < TAPS; ++j, least += (float)b) {
+        four near;
+        memcpy(&near, s->map.near + area_at(&s->map.area, x, y + j), sizeof near);
+        open += (four)((near <= least) & (mask)(across * along[j]));
     }
+    float sum = open[0] + open[1] + (open[2] + open[3]);
     return sum < 0.9999f ? (double)sum : 1.0; // weights add up to 1 but for rounding
 }

@@ -13,6 +13,7 @@ typedef struct triangle {
     vec corners[3], normals[3]; ///< normals are those of the form where it is round, else that of the face
     vec normal;                 ///< of the face, unit, outwards
     uint32_t rgba;
+    vec own;                 ///< what of white light it gives back, see light_own
     int32_t body;            ///< counted from 0
     int32_t two_sided, flat; ///< flat: its normals are that of the face
 } triangle;
