@@ -81,23 +81,34 @@ typedef struct brush {
     int32_t owner;
 } brush;
 
-static void keep_nearest(void *user, int32_t row, int32_t begin, int32_t end)
+// Without a branch, so that compilers compute several samples at once
+static inline void keep_nearest(const brush *b, int32_t row, int32_t begin, int32_t end, int with_owner)
 {
-    const brush *b = user;
     const layer_plane *p = b->depth;
-    float *near = b->to->near + area_at(&b->to->area, 0, row), least = (float)p->least, most = (float)p->most;
-    int32_t *owner = b->to->owner ? b->to->owner + area_at(&b->to->area, 0, row) : 0, number = b->owner;
-    float start = (float)(p->a * (begin + 0.5) + p->b * (row + 0.5) + p->c), step = (float)p->a;
-    for (int32_t x = begin; x < end; ++x) {
-        float at = start + step * (float)(x - begin);
-        at = at < least ? least : at > most ? most : at;
-        if (owner) owner[x] = at > near[x] ? number : owner[x];
-        near[x] = at > near[x] ? at : near[x];
+    const int64_t at = area_at(&b->to->area, begin, row);
+    const int32_t count = end - begin, number = b->owner;
+    const float start = (float)(p->a * (begin + 0.5) + p->b * (row + 0.5) + p->c), step = (float)p->a;
+    const float least = (float)p->least, most = (float)p->most;
+    float *near = b->to->near + at;
+    int32_t *owner = with_owner ? b->to->owner + at : 0;
+    for (int32_t i = 0; i < count; ++i) {
+        float depth = start + step * (float)i;
+        depth = depth < least ? least : depth;
+        depth = depth > most ? most : depth;
+        if (with_owner) owner[i] = depth > near[i] ? number : owner[i];
+        near[i] = depth > near[i] ? depth : near[i];
     }
+}
+
+static void keep_depth(void *user, int32_t row, int32_t begin, int32_t end) { keep_nearest(user, row, begin, end, 0); }
+
+static void keep_depth_and_owner(void *user, int32_t row, int32_t begin, int32_t end)
+{
+    keep_nearest(user, row, begin, end, 1);
 }
 
 void layer_draw(layer *to, const raster_point corners[3], const layer_plane *depth, int32_t owner)
 {
     brush b = {to, depth, owner};
-    raster_triangle(corners, to->area, keep_nearest, &b);
+    raster_triangle(corners, to->area, to->owner ? keep_depth_and_owner : keep_depth, &b);
 }

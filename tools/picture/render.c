@@ -214,15 +214,21 @@ static lit light_sample(const scene *s, int32_t x, int32_t y, int32_t number)
     return light_triangle(&s->light, s->triangles + number, ray_through(s, x + 0.5, y + 0.5), down);
 }
 
+typedef int32_t row_of_numbers __attribute__((vector_size(16))); // FINE + 2 of them
+
 // Is there one triangle alone, in the pixel and in the samples around it, and nothing over the pixel?
 static int is_plain(const scene *s, int32_t x, int32_t y)
 {
     if (x < 1 || y < 1 || x + FINE >= s->width || y + FINE >= s->height) return 0;
     const int32_t *at = s->seen.owner + area_at(&s->seen.area, x - 1, y - 1), number = *at;
-    int32_t others = 0;
-    for (int32_t j = 0; j < FINE + 2; ++j, at += s->width)
-        for (int32_t i = 0; i < FINE + 2; ++i) others |= at[i] ^ number;
-    if (others || !s->overlay) return !others;
+    row_of_numbers others = {0, 0, 0, 0};
+    for (int32_t j = 0; j < FINE + 2; ++j, at += s->width) {
+        row_of_numbers row;
+        memcpy(&row, at, sizeof row);
+        others |= row ^ number;
+    }
+    if (others[0] | others[1] | others[2] | others[3]) return 0;
+    if (!s->overlay) return 1;
     const uint32_t *over = s->overlay + area_at(&s->seen.area, x, y);
     return !(over[0] | over[1] | over[s->width] | over[s->width + 1]);
 }
@@ -306,9 +312,11 @@ static void draw_bands(scene *s, uint8_t *out)
     for (int32_t row = 0; row < height; row += BAND) {
         int32_t end = row + BAND < height ? row + BAND : height;
         draw_band(s, row, end);
-        for (int32_t i = row * width; i < end * width; ++i, out += 3) {
-            vec colour = light_pixel(s, i % width, i / width);
-            out[0] = light_to_byte(colour.x), out[1] = light_to_byte(colour.y), out[2] = light_to_byte(colour.z);
+        for (int32_t y = row; y < end; ++y) {
+            for (int32_t x = 0; x < width; ++x, out += 3) {
+                vec colour = light_pixel(s, x, y);
+                out[0] = light_to_byte(colour.x), out[1] = light_to_byte(colour.y), out[2] = light_to_byte(colour.z);
+            }
         }
     }
 }
