@@ -23,7 +23,10 @@ vec light_of_bytes(uint32_t rgba)
     return times(c, c);
 }
 
-uint8_t light_to_byte(double linear) { return (uint8_t)(255.0 * sqrt(clamp(linear, 0.0, 1.0)) + 0.5); }
+void light_make_bytes(light_bytes *out)
+{
+    for (int32_t i = 0; i <= LIGHT_STEPS; ++i) out->bytes[i] = (uint8_t)(255.0 * sqrt((double)i / LIGHT_STEPS) + 0.5);
+}
 
 vec light_background(double down) { return mix(UPPER, LOWER, smooth_step(0.0, 0.75, down)); }
 

@@ -9,6 +9,11 @@ typedef struct light {
     double radius;
 } light;
 
+enum { LIGHT_STEPS = 8192 };
+typedef struct light_bytes {
+    uint8_t bytes[LIGHT_STEPS + 1]; ///< of linear light
+} light_bytes;
+
 typedef struct lit {
     vec colour;
     double haze; ///< 0: none, 1: nothing else is seen
@@ -24,6 +29,12 @@ vec light_own(const triangle *t);
 lit light_triangle(const light *l, const triangle *t, vec ray, double down);
 /// The square root is the gamma, 2 for 2.2.
 vec light_of_bytes(uint32_t rgba);
-uint8_t light_to_byte(double linear);
+/// And back, by a table.
+void light_make_bytes(light_bytes *out);
+
+static inline uint8_t light_to_byte(const light_bytes *of, double linear)
+{
+    return of->bytes[(int32_t)(LIGHT_STEPS * clamp(linear, 0.0, 1.0) + 0.5)];
+}
 
 #endif

@@ -309,13 +309,16 @@ static void draw_band(scene *s, int32_t row, int32_t end)
 static void draw_bands(scene *s, uint8_t *out)
 {
     int32_t width = s->width / FINE, height = s->height / FINE;
+    light_bytes bytes;
+    light_make_bytes(&bytes);
     for (int32_t row = 0; row < height; row += BAND) {
         int32_t end = row + BAND < height ? row + BAND : height;
         draw_band(s, row, end);
         for (int32_t y = row; y < end; ++y) {
             for (int32_t x = 0; x < width; ++x, out += 3) {
-                vec colour = light_pixel(s, x, y);
-                out[0] = light_to_byte(colour.x), out[1] = light_to_byte(colour.y), out[2] = light_to_byte(colour.z);
+                vec c = light_pixel(s, x, y);
+                out[0] = light_to_byte(&bytes, c.x), out[1] = light_to_byte(&bytes, c.y),
+                out[2] = light_to_byte(&bytes, c.z);
             }
         }
     }
