@@ -394,7 +394,7 @@ const picture_scene picture_scenes[] = {
      build_bridge},
     {"furniture",
      "Furniture",
-     "Tables, chairs and shelves are compounds of boxes and cylinders: one shape each, of up to seven parts. The small "
+     "Table, chairs and shelves are compounds of boxes and cylinders: one shape each, of up to eight parts. The small "
      "things are boxes, cylinders and cones.",
      800,
      500,
