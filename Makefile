@@ -11,6 +11,7 @@
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
+#   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
 #   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
@@ -97,7 +98,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests check test test-long fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples gallery tests check test test-long fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -156,6 +157,10 @@ demo:
 	@+$(MAKE) --no-print-directory $(PARALLEL) $(BUILD)/feather-demo
 	@$(BUILD)/feather-demo
 
+# tools/picture: a program of its own below; its parts are tested
+PICTURE_OBJECTS := $(patsubst tools/picture/%.c,$(BUILD)/tools/picture/%.o,$(sort $(wildcard tools/picture/*.c)))
+PICTURE_PARTS := $(filter-out %/main.o,$(PICTURE_OBJECTS))
+
 # ---- tests ----------------------------------------------------------------------------------------------------------------------
 # tests/<folder>/test_*.c are programs; tests/*.c and tests/support/*.c are linked with each of them.
 
@@ -167,7 +172,9 @@ $(BUILD)/tests/%.o: tests/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(RUN)$(CC) $(C_FLAGS) -Itests $(STRICT) $(DEPENDENCIES) -c $< -o $@
 $(TEST_PROGRAMS): %: %.o $(TEST_SUPPORT) $(STATIC)
-	$(RUN)$(CC) $< $(TEST_SUPPORT) $(STATIC) $(LINK_FLAGS) -lcmocka -lm -o $@
+	$(RUN)$(CC) $< $(TEST_SUPPORT) $(PARTS) $(STATIC) $(LINK_FLAGS) -lcmocka -lm -o $@
+$(BUILD)/tests/determinism/test_picture: PARTS = $(PICTURE_PARTS)
+$(BUILD)/tests/determinism/test_picture: $(PICTURE_PARTS)
 
 # tests/determinism/aarch64 builds it for another machine
 GOLDEN_OBJECTS := $(BUILD)/tests/determinism/print_golden.o $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/support/play*.c)))
@@ -248,6 +255,19 @@ proof:
 proof-check:
 	@tools/proof --check
 
+# ---- pictures -------------------------------------------------------------------------------------------------------------------
+
+$(BUILD)/tools/%.o: tools/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(RUN)$(CC) $(C_FLAGS) $(SIMD_OPT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+$(BUILD)/feather-picture: $(PICTURE_OBJECTS) $(STATIC)
+	$(RUN)$(CC) $(PICTURE_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
+
+gallery: $(BUILD)/feather-picture
+	@mkdir -p docs/images
+	@for scene in $$($< --list); do echo "  docs/images/$$scene.png"; $< $$scene docs/images/$$scene.png || exit 1; done
+	@$< --page > docs/gallery.html
+
 # ---- docs -----------------------------------------------------------------------------------------------------------------------
 
 docs:
@@ -298,11 +318,11 @@ deps:
 	@tools/deps.sh all
 
 # Without the records of the ABI, which stay as they were written.
-FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h inl cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
+FORMATTED = $(foreach top,src tests bench examples tools,$(foreach ext,c h inl cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
 format:
 	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout%.h,$(FORMATTED))
 
 clean:
 	rm -rf $(BUILD)
 
--include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(TEST_SUPPORT:.o=.d) $(BENCH_OBJECTS:.o=.d) $(wildcard $(BUILD)/examples/*.d)
+-include $(OBJECTS:.o=.d) $(PICTURE_OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(TEST_SUPPORT:.o=.d) $(BENCH_OBJECTS:.o=.d) $(wildcard $(BUILD)/examples/*.d)
