@@ -997,10 +997,10 @@ FE_API void fe_compound_part_init(fe_compound_part *part, uint32_t struct_size);
 /// Makes one form of several: a table, a tree, a tiled floor. Its shape (fe_geometry_compound) has one handle, filter
 /// and user data; mass, centre and inertia are those of its parts together. Hits, contacts and events name the shape,
 /// and the number of the part: its place in `parts`. A pair of shapes begins to touch with the first two of their parts
-/// that do, and ends with the last two. Parts may overlap; each weighs what it weighs alone. Each part of a one-way
-/// compound judges by itself who comes from behind. Parts move, touch and answer queries as single shapes of the body
-/// do. To change one, make another compound and give it to the shape (fe_shape_set_geometry). Parts of a body that need
-/// their own filter, events or handle are better single shapes.
+/// that do, and ends with the last two. Parts may overlap; each weighs what it weighs alone. What
+/// passes a part of a one-way compound passes all parts, until it is apart from them. Parts move, touch and answer
+/// queries as single shapes of the body do. To change one, make another compound and give it to the shape
+/// (fe_shape_set_geometry). Parts of a body that need their own filter, events or handle are better single shapes.
 ///
 /// The parts are copied. Their assets live as long as the compound does, whoever destroys their handles. Any number of
 /// shapes, in any world that uses the store, may share it; fe_asset_destroy gives it back. A compound has no scale:

@@ -152,7 +152,7 @@ static int32_t may_be(const fe_world *world, int32_t body, int32_t type, const f
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         const fe__form *form = *out_form = &world->shapes[shape].form;
-        if (type == FE_BODY_STATIC || !fe__form_is_static_only(form) || fe__form_is_of_parts(form)) continue;
+        if (type == FE_BODY_STATIC || !fe__form_is_static_only(form)) continue;
         if (type == FE_BODY_DYNAMIC || !fe__form_is_carried(form)) return 0;
     }
     return 1;

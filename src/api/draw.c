@@ -65,50 +65,42 @@ static fe_result read_options(const char *function, const fe_world *world, const
 
 static inline void leave(fe__fp_state *fp) { fe__fp_leave(*fp); }
 
-static fe__pen pen_of(fe_draw_vertex *out, uint32_t stride, int32_t capacity)
+// What fe_world_draw_lines, _triangles and _points share: `draw` is theirs
+static int32_t draw_vertices(const char *function, const fe_world *world, const fe_draw_options *options,
+                             fe_draw_vertex *out_vertices, uint32_t stride, int32_t capacity,
+                             void (*draw)(fe__drawing *drawing, fe__pen *pen))
 {
-    const uint32_t whole = (uint32_t)sizeof *out;
-    return (fe__pen){.out = (unsigned char *)out,
-                     .stride = stride,
-                     .size = stride < whole ? stride : whole,
-                     .capacity = capacity};
-}
-
-static int32_t count_of(const char *function, const fe__pen *pen)
-{
-    if (pen->count <= INT32_MAX) return (int32_t)pen->count;
+    FE_READ_DRAWING(out_vertices, stride, capacity);
+    const uint32_t whole = (uint32_t)sizeof *out_vertices;
+    fe__pen pen = {.out = (unsigned char *)out_vertices,
+                   .stride = stride,
+                   .size = stride < whole ? stride : whole,
+                   .capacity = capacity};
+    draw(&drawing, &pen);
+    if (pen.count <= INT32_MAX) return (int32_t)pen.count;
     return fe__fail(function, FE_ERROR_LIMIT, "%lld vertices are more than 2^31 - 1: draw less, within lower and upper",
-                    (long long)pen->count);
+                    (long long)pen.count);
 }
 
 int32_t fe_world_draw_lines(const fe_world *world, const fe_draw_options *options, fe_draw_vertex *out_vertices,
                             uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    FE_READ_DRAWING(out_vertices, stride, capacity);
-    fe__pen pen = pen_of(out_vertices, stride, capacity);
-    fe__draw_lines(&drawing, &pen);
-    return count_of(function, &pen);
+    return draw_vertices(function, world, options, out_vertices, stride, capacity, fe__draw_lines);
 }
 
 int32_t fe_world_draw_triangles(const fe_world *world, const fe_draw_options *options, fe_draw_vertex *out_vertices,
                                 uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    FE_READ_DRAWING(out_vertices, stride, capacity);
-    fe__pen pen = pen_of(out_vertices, stride, capacity);
-    fe__draw_triangles(&drawing, &pen);
-    return count_of(function, &pen);
+    return draw_vertices(function, world, options, out_vertices, stride, capacity, fe__draw_triangles);
 }
 
 int32_t fe_world_draw_points(const fe_world *world, const fe_draw_options *options, fe_draw_vertex *out_vertices,
                              uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    FE_READ_DRAWING(out_vertices, stride, capacity);
-    fe__pen pen = pen_of(out_vertices, stride, capacity);
-    fe__draw_points(&drawing, &pen);
-    return count_of(function, &pen);
+    return draw_vertices(function, world, options, out_vertices, stride, capacity, fe__draw_points);
 }
 
 int32_t fe_world_draw_instances(const fe_world *world, const fe_draw_options *options, fe_draw_instance *out_instances,

@@ -2,47 +2,21 @@
 //
 // tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
+#include "core/simd_sets.h"
 
 // Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one
 // of few nodes.
 enum { SPLIT_ROOM = 32, ROOM_OF_A_NODE = 2 };
 
-#define DECLARE_SET(name) extern const fe__tree_kernels fe__tree_kernels_##name;
-#ifdef FE_HAVE_SSE2
-DECLARE_SET(sse2)
-#endif
-#ifdef FE_HAVE_AVX2
-DECLARE_SET(avx2)
-#endif
-#ifdef FE_HAVE_AVX512
-DECLARE_SET(avx512)
-#endif
-#ifdef FE_HAVE_NEON
-DECLARE_SET(neon)
-#endif
+#define DECLARE(simd, name) extern const fe__tree_kernels fe__tree_kernels_##name;
+FE_EACH_WIDE_SET(DECLARE)
 
 const fe__tree_kernels *fe__tree_kernels_of(int32_t simd)
 {
-    switch (simd) {
-#ifdef FE_HAVE_SSE2
-    case FE_SIMD_SSE2:
-        return &fe__tree_kernels_sse2;
-#endif
-#ifdef FE_HAVE_AVX2
-    case FE_SIMD_AVX2:
-        return &fe__tree_kernels_avx2;
-#endif
-#ifdef FE_HAVE_AVX512
-    case FE_SIMD_AVX512:
-        return &fe__tree_kernels_avx512;
-#endif
-#ifdef FE_HAVE_NEON
-    case FE_SIMD_NEON:
-        return &fe__tree_kernels_neon;
-#endif
-    default:
-        return &fe__tree_kernels_plain;
-    }
+#define RETURN_IF(set, name) \
+    if (simd == (set)) return &fe__tree_kernels_##name;
+    FE_EACH_WIDE_SET(RETURN_IF)
+    return &fe__tree_kernels_plain;
 }
 
 void fe__tree_destroy(fe__tree *tree, fe__memory *memory)

@@ -154,6 +154,9 @@ static int32_t lets_pass(const fe_world *w, int32_t shape_a, int32_t shape_b)
     return pair >= 0 && w->pairs[pair].flags & (FE__PAIR_DENIED | FE__PAIR_PASSING);
 }
 
+// Meshes that a kinematic body carries are not, and of a compound its parts are
+static int32_t is_swept(const fe__form *form) { return !fe__form_is_static_only(form) && !fe__form_is_of_parts(form); }
+
 static void try_shape(search *s, int32_t shape)
 {
     const fe_world *w = s->step->world;
@@ -162,7 +165,7 @@ static void try_shape(search *s, int32_t shape)
     fe__mobile other = fe__mobile_of_shape(s->step, obstacle, &motion);
     for (int32_t i = w->bodies[s->body].first_shape; i >= 0; i = w->shapes[i].next) {
         const fe__shape *own = w->shapes + i;
-        if (own->flags & FE__SHAPE_TRIGGER || fe__form_is_static_only(&own->form) || !fe__may_collide(w, i, shape) ||
+        if (own->flags & FE__SHAPE_TRIGGER || !is_swept(&own->form) || !fe__may_collide(w, i, shape) ||
             lets_pass(w, i, shape))
             continue;
         if (fe__form_is_field(&obstacle->form))

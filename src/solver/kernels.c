@@ -1,10 +1,11 @@
 // kernels.c - which SIMD sets were built, which of them this CPU has, and the choice between them.
+#include "core/simd_sets.h"
 #include "solver/solver.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define DECLARE_SET(name)                                        \
+#define DECLARE(simd, name)                                      \
     extern const fe__contact_kernels fe__contact_kernels_##name; \
     extern const fe__joint_kernels fe__joint_kernels_##name;     \
     extern const fe__forest_kernels fe__forest_kernels_##name;   \
@@ -17,19 +18,8 @@
             fe__recycle_##name, fe__keep_due_##name, THIN(contact_kernels)                                            \
     }
 
-DECLARE_SET(plain)
-#ifdef FE_HAVE_SSE2
-DECLARE_SET(sse2)
-#endif
-#ifdef FE_HAVE_AVX2
-DECLARE_SET(avx2)
-#endif
-#ifdef FE_HAVE_AVX512
-DECLARE_SET(avx512)
-#endif
-#ifdef FE_HAVE_NEON
-DECLARE_SET(neon)
-#endif
+DECLARE(FE_SIMD_PLAIN, plain)
+FE_EACH_WIDE_SET(DECLARE)
 
 // The set of FE__THIN_WIDTH lanes: whatever CPU has a wider one has it too
 #ifdef FE_HAVE_SSE2

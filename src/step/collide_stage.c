@@ -9,6 +9,7 @@
 #include "solver/graph/graph.h"
 #include "step/narrow.h"
 #include "step/narrow_field.h"
+#include "world/encounter.h"
 #include "world/pair_link.h"
 #include "world/pairs.h"
 #include "world/proxies.h"
@@ -22,13 +23,21 @@ typedef struct collide_job {
 } collide_job;
 
 // ---- one pair ------------------------------------------------------------------------------------------------------
+// Of parts, one of them one-way: the encounter has not counted that they pass, or no longer do
+static int32_t has_changed_sides(const fe__pair *p)
+{
+    int32_t passes = (p->flags & FE__PAIR_PASSING) != 0, passed = (p->flags & FE__PAIR_PASSED) != 0;
+    return p->flags & FE__PAIR_OF_PARTS && passes != passed;
+}
+
 static int32_t judge(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
     int32_t has_points = w->contacts[pair].point_count > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
     if (!(p->flags & FE__PAIR_PATCH) && fe__boxes_part(w, p)) return FE__RESULT_APART;
-    return linked ? FE__RESULT_END : FE__RESULT_NONE;
+    if (linked) return FE__RESULT_END;
+    return has_changed_sides(p) ? FE__RESULT_PASSES : FE__RESULT_NONE;
 }
 
 // A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than
@@ -240,6 +249,7 @@ static void apply_results(fe__step *step, int32_t first)
             end_contact(step, results[i]);
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
+        if (p->result == FE__RESULT_PASSES) fe__encounter_pass(w, results[i]);
         if (p->result != FE__RESULT_BEGIN) continue;
         fe__pair_link(w, results[i], step->dt);
         wake_sleeping(w, p->body_a);

@@ -10,6 +10,7 @@
 #include "core/simd.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
+#include "world/encounter.h"
 #include "world/points.h"
 #include "world/pose.h"
 
@@ -351,22 +352,26 @@ static int32_t holds(const fe__shape *shape, fe_vec3 outward)
     return fe__dot(direction, outward) >= ONE_WAY_COSINE * sqrtf(fe__dot(direction, direction));
 }
 
-// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are
-// apart.
-static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
+static int32_t is_held(const fe__view *v, const fe__manifold *found)
 {
-    if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return 0;
-    if (!found->count) {
-        p->flags &= ~(uint32_t)FE__PAIR_PASSING;
-        return 0;
-    }
-    if (p->flags & FE__PAIR_PASSING) return 1;
-    if (p->flags & FE__PAIR_LINKED) return 0;
     fe_vec3 normal = fe__mul(&v->rotation, found->normal); // from v->a to v->b
-    int32_t held = (!(v->a->flags & FE__SHAPE_ONE_WAY) || holds(v->a, normal)) &&
-                   (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
-    if (!held) p->flags |= FE__PAIR_PASSING;
-    return !held;
+    return (!(v->a->flags & FE__SHAPE_ONE_WAY) || holds(v->a, normal)) &&
+           (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
+}
+
+// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are
+// apart. What passes a part of a compound passes all that it meets in the meantime.
+static int32_t passes(const fe_world *world, int32_t pair, const fe__view *v, const fe__manifold *found)
+{
+    fe__pair *p = world->pairs + pair;
+    if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return 0;
+    if (p->flags & FE__PAIR_PASSING) return 1;
+    if (!found->count || p->flags & FE__PAIR_LINKED) return 0;
+    const fe__encounter *e = p->flags & FE__PAIR_OF_PARTS ? fe__encounter_of(world, pair) : NULL;
+    if (!(e && e->passing) && is_held(v, found)) return 0;
+    // what other parts hold may yet come to lie on this one
+    if (!(e && e->held && !e->passing)) p->flags |= FE__PAIR_PASSING;
+    return 1;
 }
 
 // some way off now, but closing within the step: the normal may turn on that way
@@ -407,10 +412,11 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     if (p->axis >= 0) found.last = kernels_normal(m, &v);
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
+    if (!found.count) p->flags &= ~(uint32_t)FE__PAIR_PASSING; // a seam may take points away from what passes
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     int32_t axis = found.axis;
     float axis_separation = found.axis_separation;
-    if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
+    if (p->flags & FE__PAIR_DENIED || passes(world, pair, &v, &found)) {
         p->axis_separation = axis_separation;
         write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
         return 1;

@@ -9,6 +9,7 @@
 typedef struct fe__encounter {
     int32_t shape_a, shape_b; // whole ones; A was created first
     int32_t pairs, touching;  // of parts; so many of these touch
+    int32_t held, passing;    // so many are contacts; so many pass a one-way shape, as the last step left them
     int32_t lead;             // one that touches, 0: none does. Who asks which shapes touch hears of it alone
     uint16_t denied;          // the pair filter refused it
     uint16_t entered;         // an exit is owed
@@ -31,6 +32,10 @@ static inline fe__encounter *fe__encounter_of(const fe_world *world, int32_t pai
 void fe__encounter_gain(fe_world *world, int32_t pair);
 // A pair of parts goes. 1: with it goes the encounter, which owes an exit
 int32_t fe__encounter_lose(fe_world *world, int32_t pair);
+// A pair begins or ceases to be a contact, or to pass a one-way shape. Never while workers look at pairs: they read
+// both counts, see step/narrow.c
+void fe__encounter_hold(fe_world *world, int32_t pair, int32_t holds);
+void fe__encounter_pass(fe_world *world, int32_t pair);
 // A pair begins or ceases to touch
 void fe__encounter_touch(fe_world *world, int32_t pair, int32_t touches);
 void fe__encounter_note(fe_world *world, fe__encounter *encounter); // the step shall report of it

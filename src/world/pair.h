@@ -17,6 +17,7 @@ enum {
     FE__PAIR_PASSING = 512,   // through a one-way shape: no contact until they are apart
     FE__PAIR_FREE = 1024,     // the record is no pair
     FE__PAIR_OF_PARTS = 2048, // of compounds: their events are the encounter's (encounter.h)
+    FE__PAIR_PASSED = 4096,   // of parts: counted as passing by the encounter
     // above these bits: the number of a patch, from 1; 0 of a head
     FE__PAIR_NUMBER_SHIFT = 16
 };
@@ -25,7 +26,7 @@ enum {
 enum { FE__PAIR_MAY_REPORT = FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order
-enum { FE__RESULT_NONE, FE__RESULT_BEGIN, FE__RESULT_END, FE__RESULT_APART };
+enum { FE__RESULT_NONE, FE__RESULT_BEGIN, FE__RESULT_END, FE__RESULT_APART, FE__RESULT_PASSES };
 
 typedef struct fe__link {
     int32_t next, previous; // pair index, -1: none

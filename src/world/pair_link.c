@@ -2,6 +2,7 @@
 #include "world/pair_link.h"
 
 #include "solver/graph/colour.h"
+#include "world/encounter.h"
 #include "world/pair_list.h"
 #include "world/points.h"
 
@@ -53,6 +54,12 @@ static void note_colour(fe_world *world, const fe__contact *m)
         world->static_colours = fe__maxi(world->static_colours, m->colour - FE__PAIR_COLOURS + 1);
 }
 
+// Patches are their head's
+static int32_t has_encounter(const fe__pair *p)
+{
+    return (p->flags & (FE__PAIR_OF_PARTS | FE__PAIR_PATCH)) == FE__PAIR_OF_PARTS;
+}
+
 void fe__pair_link(fe_world *world, int32_t pair, float dt)
 {
     fe__contact *m = world->contacts + pair;
@@ -63,6 +70,7 @@ void fe__pair_link(fe_world *world, int32_t pair, float dt)
     ++world->linked_count;
     note_colour(world, m);
     if (world->pairs[pair].awake_index >= 0) ++world->awake_linked_count, ++world->solver.unbuilt;
+    if (has_encounter(world->pairs + pair)) fe__encounter_hold(world, pair, 1);
     if (world->pairs[pair].flags & FE__PAIR_PATCH) enter_lists(world, pair);
 }
 
@@ -82,6 +90,7 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
     fe__uncolour_contact(world->bodies, m);
     fe__points_release(world, pair);
     world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
+    if (has_encounter(world->pairs + pair)) fe__encounter_hold(world, pair, 0);
     if (world->pairs[pair].awake_index >= 0) --world->awake_linked_count;
     world->solver.graph_changed = 1;
     --world->linked_count;

@@ -200,9 +200,9 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
 {
     const fe__pair *p = world->pairs + pair;
     int32_t touched = (p->flags & FE__PAIR_TOUCHING) != 0;
-    if (p->flags & FE__PAIR_OF_PARTS) touched = fe__encounter_lose(world, pair);
     destroy_patches(world, pair);
     fe__pair_unlink(world, pair);
+    if (p->flags & FE__PAIR_OF_PARTS) touched = fe__encounter_lose(world, pair);
     fe__points_release(world, pair);
     fe__pair_retire(world, pair);
     remove_from_body(world, pair, p->body_a);

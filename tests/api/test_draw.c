@@ -332,6 +332,45 @@ static void heightfields_are_drawn_without_their_holes(void **state)
     OK(fe_world_destroy(world));
 }
 
+static int32_t has_edge(const drawn *lines, const fe_draw_vertex *a, const fe_draw_vertex *b)
+{
+    for (int32_t i = 0; i < lines->count; i += 2) {
+        const fe_draw_vertex *from = lines->vertices + i, *to = from + 1;
+        if ((same_place(from, a) && same_place(to, b)) || (same_place(from, b) && same_place(to, a))) return 1;
+    }
+    return 0;
+}
+
+// Each triangle that is drawn has its three edges, wherever the box cuts: its neighbours may be left out.
+static void what_is_cut_keeps_its_edges(void **state)
+{
+    (void)state;
+    enum { PLACES = 6 };
+    for (int32_t kind = 0; kind < 2; ++kind) {
+        fe_world *world = new_world();
+        fe_geometry ground;
+        if (kind)
+            fe_geometry_heightfield(&ground, make_field(world));
+        else
+            fe_geometry_mesh(&ground, make_mesh(world));
+        add_shape(world, new_body(world, FE_BODY_STATIC, 0, 0, 0), &ground);
+        fe_draw_options options = options_of(FE_DRAW_SHAPES);
+        int32_t all = fe_world_draw_triangles(world, &options, NULL, 0, 0), left_out = 0;
+        for (int32_t place = 0; place < PLACES * PLACES; ++place) {
+            double x = 0.8 * (place % PLACES) - 1.0, z = 0.8 * (place / PLACES) - 1.0;
+            options.lower = fe_make_dvec3(x, -5, z), options.upper = fe_make_dvec3(x + 0.01, 5, z + 0.01);
+            drawn triangles = draw(fe_world_draw_triangles, world, &options),
+                  lines = draw(fe_world_draw_lines, world, &options);
+            left_out += triangles.count > 0 && triangles.count < all;
+            for (int32_t i = 0; i < triangles.count; ++i)
+                assert_true(has_edge(&lines, triangles.vertices + i, triangles.vertices + i / 3 * 3 + (i + 1) % 3));
+            free(triangles.vertices), free(lines.vertices);
+        }
+        assert_true(left_out > 0);
+        OK(fe_world_destroy(world));
+    }
+}
+
 // The piece is flat in the plane, within the box, and as large as its cut: 6 x 4 m
 static void a_plane_is_drawn_within_the_box(void **state)
 {
@@ -674,6 +713,7 @@ int main(void)
         cmocka_unit_test(closed_forms_are_drawn_as_large_as_they_weigh),
         cmocka_unit_test(meshes_are_drawn_scaled_and_mirrored),
         cmocka_unit_test(heightfields_are_drawn_without_their_holes),
+        cmocka_unit_test(what_is_cut_keeps_its_edges),
         cmocka_unit_test(a_plane_is_drawn_within_the_box),
         cmocka_unit_test(a_far_world_is_drawn_as_well),
         cmocka_unit_test(colours_tell_what_bodies_are),

@@ -607,6 +607,63 @@ static void a_belt_of_turned_parts_runs_one_way(void **state)
     scene_end(&s);
 }
 
+// What has come in from below through one tile of a one-way floor passes its neighbours too, wherever it drifts to: it
+// flies as if there was no floor, and so does one through a floor of one piece.
+static void what_passes_a_part_passes_them_all(void **state)
+{
+    enum { TILES = 4, BALLS = 12 };
+    const double top = 0.3, apex = 0.42; // the ball turns round with its centre above the tiles and its foot inside
+    fe_compound_part tiles[TILES];
+    for (int i = 0; i < TILES; ++i) tiles[i] = part_of(box(0.5, top, 1), v3(i - 1.5, 0, 0), UNTURNED);
+    scene s = scene_begin(state), free_flight = scene_begin(state);
+    fe_shape_def one_way;
+    fe_shape_def_init(&one_way, sizeof one_way);
+    one_way.one_way = 1;
+    add_compound(&s, add_empty(&s, FE_BODY_STATIC, v3(0, 0, 0), UNTURNED), tiles, TILES, &one_way);
+    for (int i = 0; i < BALLS; ++i) {
+        scene *of[2] = {&s, &free_flight};
+        for (int k = 0; k < 2; ++k) {
+            fe_shape_def d;
+            fe_shape_def_init(&d, sizeof d);
+            d.mask = 1, d.layer = 2; // not with each other
+            fe_geometry form = sphere(0.2);
+            fe_shape shape;
+            fe_body ball = add_empty(of[k], FE_BODY_DYNAMIC, v3(-1.6 + 0.08 * i, -1, 0), UNTURNED);
+            MUST(fe_shape_create(of[k]->world, ball, &d, &form, &shape));
+            set_velocity(of[k], ball, v3(1, sqrt(2 * 9.81 * (apex + 1)), 0), v3(0, 0, 0));
+        }
+    }
+    for (int i = 0; i < 90; ++i) {
+        run(&s, 1), run(&free_flight, 1);
+        fe_body there[BALLS + 1], here[BALLS];
+        assert_int_equal(fe_world_get_bodies(s.world, there, BALLS + 1), BALLS + 1);
+        assert_int_equal(fe_world_get_bodies(free_flight.world, here, BALLS), BALLS);
+        for (int b = 0; b < BALLS; ++b) {
+            vec p = position(&s, there[b + 1]), q = position(&free_flight, here[b]);
+            FE_TRUE(p.x == q.x && p.y == q.y && p.z == q.z);
+        }
+    }
+    scene_end(&s), scene_end(&free_flight);
+}
+
+// What stands on one tile is held by the next, although it meets it from the side.
+static void what_a_part_holds_they_all_hold(void **state)
+{
+    fe_compound_part tiles[2] = {part_of(box(1, 0.3, 1), v3(-1, -0.3, 0), UNTURNED),
+                                 part_of(box(1, 0.3, 1), v3(1, -0.3, 0), UNTURNED)};
+    scene s = scene_begin(state);
+    fe_shape_def one_way;
+    fe_shape_def_init(&one_way, sizeof one_way);
+    one_way.one_way = 1;
+    add_compound(&s, add_empty(&s, FE_BODY_KINEMATIC, v3(0, 0, 0), UNTURNED), tiles, 2, &one_way);
+    fe_body sled = add_dynamic(&s, box(0.2, 0.2, 0.2), v3(-0.6, 0.2, 0), UNTURNED, friction(0), WATER);
+    set_velocity(&s, sled, v3(1, 0, 0), v3(0, 0, 0));
+    run(&s, 72);
+    FE_NEAR(position(&s, sled).x, 0.6, 0.01);
+    FE_NEAR(position(&s, sled).y, 0.2, 0.01);
+    scene_end(&s);
+}
+
 // A tower of compounds falls asleep, wakes when its lowest goes, and everything comes to rest again.
 static void compounds_sleep_and_wake(void **state)
 {
@@ -670,6 +727,8 @@ int main(void)
         TEST(a_shape_becomes_a_compound_and_back),
         TEST(a_frame_moves_all_parts),
         TEST(a_belt_of_turned_parts_runs_one_way),
+        TEST(what_passes_a_part_passes_them_all),
+        TEST(what_a_part_holds_they_all_hold),
         TEST(compounds_sleep_and_wake),
         TEST(fast_bodies_are_stopped),
     };

@@ -6,17 +6,16 @@ namespace FeatherPhysics
 {
     public sealed unsafe partial class World
     {
+        private static readonly DrawOptions drawDefaults = new DrawOptions(); // only read
+
         /// <summary>Two vertices a line. Returns how many there are.</summary>
         /// <param name="options">null: shapes in the colours of their islands</param>
         public int DrawLines(Span<DrawVertex> vertices, DrawOptions options = null)
         {
             fixed (DrawVertex* out_ = &MemoryMarshal.GetReference(vertices))
+            fixed (uint* given = &(options ?? drawDefaults).StructSize)
             {
-                int count;
-                if (options == null)
-                    count = Native.world_draw_lines(P, null, out_, (uint)sizeof(DrawVertex), vertices.Length);
-                else fixed (uint* given = &options.StructSize)
-                    count = Native.world_draw_lines(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
+                int count = Native.world_draw_lines(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
                 GC.KeepAlive(this);
                 return count;
             }
@@ -27,12 +26,9 @@ namespace FeatherPhysics
         public int DrawTriangles(Span<DrawVertex> vertices, DrawOptions options = null)
         {
             fixed (DrawVertex* out_ = &MemoryMarshal.GetReference(vertices))
+            fixed (uint* given = &(options ?? drawDefaults).StructSize)
             {
-                int count;
-                if (options == null)
-                    count = Native.world_draw_triangles(P, null, out_, (uint)sizeof(DrawVertex), vertices.Length);
-                else fixed (uint* given = &options.StructSize)
-                    count = Native.world_draw_triangles(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
+                int count = Native.world_draw_triangles(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
                 GC.KeepAlive(this);
                 return count;
             }
@@ -41,12 +37,9 @@ namespace FeatherPhysics
         public int DrawPoints(Span<DrawVertex> vertices, DrawOptions options = null)
         {
             fixed (DrawVertex* out_ = &MemoryMarshal.GetReference(vertices))
+            fixed (uint* given = &(options ?? drawDefaults).StructSize)
             {
-                int count;
-                if (options == null)
-                    count = Native.world_draw_points(P, null, out_, (uint)sizeof(DrawVertex), vertices.Length);
-                else fixed (uint* given = &options.StructSize)
-                    count = Native.world_draw_points(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
+                int count = Native.world_draw_points(P, given, out_, (uint)sizeof(DrawVertex), vertices.Length);
                 GC.KeepAlive(this);
                 return count;
             }
@@ -55,12 +48,9 @@ namespace FeatherPhysics
         public int DrawInstances(Span<DrawInstance> instances, DrawOptions options = null)
         {
             fixed (DrawInstance* out_ = &MemoryMarshal.GetReference(instances))
+            fixed (uint* given = &(options ?? drawDefaults).StructSize)
             {
-                int count;
-                if (options == null)
-                    count = Native.world_draw_instances(P, null, out_, (uint)sizeof(DrawInstance), instances.Length);
-                else fixed (uint* given = &options.StructSize)
-                    count = Native.world_draw_instances(P, given, out_, (uint)sizeof(DrawInstance), instances.Length);
+                int count = Native.world_draw_instances(P, given, out_, (uint)sizeof(DrawInstance), instances.Length);
                 GC.KeepAlive(this);
                 return count;
             }

@@ -113,7 +113,6 @@ const fe__form_traits fe__forms[FE__FORM_TYPES] = {
                            .face = fe__triangle_face},
     [FE__FORM_COMPOUND] = {.name = "compound",
                            .geometry = FE_GEOMETRY_COMPOUND,
-                           .static_only = 1,
                            .has_asset = 1,
                            .of_parts = 1,
                            .mass = fe__no_mass,

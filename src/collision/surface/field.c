@@ -39,9 +39,10 @@ void fe__draw_field(const fe__drawn *s, fe__pen *pen)
     }
 }
 
-// ---- edges: each between two triangles once -------------------------------------------------------------------------
-// Of a mesh the neighbour has it the other way round: one of the two goes up, by x, then y, then z. Edges that are
-// open, crowded or wound against each other are drawn by each triangle that has them.
+// ---- edges: of what is whole each between two triangles once
+// --------------------------------------------------------- Of a mesh the neighbour has it the other way round: one of
+// the two goes up, by x, then y, then z. Edges that are open, crowded or wound against each other are drawn by each
+// triangle that has them.
 static int32_t draws_mesh_edge(const fe__mesh *mesh, int32_t slot, int32_t side, const fe_dvec3 *a, const fe_dvec3 *b)
 {
     fe__mesh_edge edge = fe__mesh_edge_of(mesh, slot, side);
@@ -56,6 +57,14 @@ static int32_t draws_cell_edge(const fe__ground *ground, int32_t triangle, int32
     return own || fe__ground_is_rim(ground, triangle, side);
 }
 
+// Of what is cut all: the triangle whose edge it would be may be left out
+static int32_t draws_edge(const fe__drawn *s, int32_t triangle, int32_t side, const fe_dvec3 *a, const fe_dvec3 *b)
+{
+    if (s->is_cut) return 1;
+    if (s->ground.mesh) return draws_mesh_edge(s->ground.mesh, triangle, side, a, b);
+    return draws_cell_edge(&s->ground, triangle, side);
+}
+
 void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen)
 {
     fe__bounds box = box_of(s);
@@ -67,9 +76,8 @@ void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen)
         fe__ground_corners(&s->ground, i, c);
         for (int32_t side = 0; side < 3; ++side) {
             const fe_dvec3 *a = c + side, *b = c + (side + 1) % 3;
-            int32_t draws =
-                s->ground.mesh ? draws_mesh_edge(s->ground.mesh, i, side, a, b) : draws_cell_edge(&s->ground, i, side);
-            if (draws && !fe__pen_skips(pen, 2)) fe__pen_line(pen, fe__surface_point(s, *a), fe__surface_point(s, *b));
+            if (draws_edge(s, i, side, a, b) && !fe__pen_skips(pen, 2))
+                fe__pen_line(pen, fe__surface_point(s, *a), fe__surface_point(s, *b));
         }
     }
 }

@@ -3,13 +3,9 @@
 #define FE_COLLISION_SURFACE_KINDS_H
 #include "collision/surface/surface.h"
 
-// round.c: surfaces of revolution
-void fe__draw_ball(const fe__drawn *s, fe__pen *pen); // spheres, and capsules
-void fe__draw_ball_lines(const fe__drawn *s, fe__pen *pen);
-void fe__draw_cylinder(const fe__drawn *s, fe__pen *pen);
-void fe__draw_cylinder_lines(const fe__drawn *s, fe__pen *pen);
-void fe__draw_cone(const fe__drawn *s, fe__pen *pen);
-void fe__draw_cone_lines(const fe__drawn *s, fe__pen *pen);
+// round.c: surfaces of revolution, that is spheres, capsules, cylinders and cones
+void fe__draw_round(const fe__drawn *s, fe__pen *pen);
+void fe__draw_round_lines(const fe__drawn *s, fe__pen *pen);
 
 // flat.c
 void fe__draw_box(const fe__drawn *s, fe__pen *pen);

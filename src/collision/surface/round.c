@@ -63,57 +63,40 @@ static void draw_band(const fe__drawn *s, const profile *p, int32_t i, fe__pen *
     }
 }
 
-static void draw_turned(const fe__drawn *s, const profile *p, fe__pen *pen)
+static profile profile_of(const fe__drawn *s)
 {
+    switch (s->form->type) {
+    case FE__FORM_CYLINDER:
+        return cylinder_profile(s);
+    case FE__FORM_CONE:
+        return cone_profile(s);
+    default:
+        return ball_profile(s);
+    }
+}
+
+void fe__draw_round(const fe__drawn *s, fe__pen *pen)
+{
+    const profile p = profile_of(s);
     // both ends are on the axis: all bands but two have two triangles a segment
-    if (fe__pen_skips(pen, 3 * (int64_t)s->circle->segments * (2 * (p->count - 1) - 2))) return;
-    for (int32_t i = 0; i + 1 < p->count; ++i) draw_band(s, p, i, pen);
+    if (fe__pen_skips(pen, 3 * (int64_t)s->circle->segments * (2 * (p.count - 1) - 2))) return;
+    for (int32_t i = 0; i + 1 < p.count; ++i) draw_band(s, &p, i, pen);
 }
 
 // The circles, and the profile on four sides
-static void draw_turned_lines(const fe__drawn *s, const profile *p, fe__pen *pen)
+void fe__draw_round_lines(const fe__drawn *s, fe__pen *pen)
 {
     static const double cosine[4] = {1.0, 0.0, -1.0, 0.0}, sine[4] = {0.0, 1.0, 0.0, -1.0};
     const fe__circle *c = s->circle;
-    int32_t rings = p->rings[1] == p->rings[0] ? 1 : 2;
-    if (fe__pen_skips(pen, 2 * ((int64_t)c->segments * rings + 4 * (p->count - 1)))) return;
+    const profile p = profile_of(s);
+    int32_t rings = p.rings[1] == p.rings[0] ? 1 : 2;
+    if (fe__pen_skips(pen, 2 * ((int64_t)c->segments * rings + 4 * (p.count - 1)))) return;
     for (int32_t ring = 0; ring < rings; ++ring)
         for (int32_t k = 0; k < c->segments; ++k)
-            fe__pen_line(pen, point_of(s, p, p->rings[ring], c->cosine[k], c->sine[k]),
-                         point_of(s, p, p->rings[ring], c->cosine[k + 1], c->sine[k + 1]));
+            fe__pen_line(pen, point_of(s, &p, p.rings[ring], c->cosine[k], c->sine[k]),
+                         point_of(s, &p, p.rings[ring], c->cosine[k + 1], c->sine[k + 1]));
     for (int32_t side = 0; side < 4; ++side)
-        for (int32_t i = 0; i + 1 < p->count; ++i)
-            fe__pen_line(pen, point_of(s, p, i, cosine[side], sine[side]),
-                         point_of(s, p, i + 1, cosine[side], sine[side]));
-}
-
-void fe__draw_ball(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = ball_profile(s);
-    draw_turned(s, &p, pen);
-}
-void fe__draw_ball_lines(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = ball_profile(s);
-    draw_turned_lines(s, &p, pen);
-}
-void fe__draw_cylinder(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = cylinder_profile(s);
-    draw_turned(s, &p, pen);
-}
-void fe__draw_cylinder_lines(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = cylinder_profile(s);
-    draw_turned_lines(s, &p, pen);
-}
-void fe__draw_cone(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = cone_profile(s);
-    draw_turned(s, &p, pen);
-}
-void fe__draw_cone_lines(const fe__drawn *s, fe__pen *pen)
-{
-    profile p = cone_profile(s);
-    draw_turned_lines(s, &p, pen);
+        for (int32_t i = 0; i + 1 < p.count; ++i)
+            fe__pen_line(pen, point_of(s, &p, i, cosine[side], sine[side]),
+                         point_of(s, &p, i + 1, cosine[side], sine[side]));
 }

@@ -7,11 +7,11 @@ typedef struct draw_traits {
 } draw_traits;
 
 static const draw_traits traits[FE__FORM_TYPES] = {
-    [FE__FORM_SPHERE] = {fe__draw_ball, fe__draw_ball_lines},
-    [FE__FORM_CAPSULE] = {fe__draw_ball, fe__draw_ball_lines},
+    [FE__FORM_SPHERE] = {fe__draw_round, fe__draw_round_lines},
+    [FE__FORM_CAPSULE] = {fe__draw_round, fe__draw_round_lines},
     [FE__FORM_BOX] = {fe__draw_box, fe__draw_box_lines},
-    [FE__FORM_CYLINDER] = {fe__draw_cylinder, fe__draw_cylinder_lines},
-    [FE__FORM_CONE] = {fe__draw_cone, fe__draw_cone_lines},
+    [FE__FORM_CYLINDER] = {fe__draw_round, fe__draw_round_lines},
+    [FE__FORM_CONE] = {fe__draw_round, fe__draw_round_lines},
     [FE__FORM_HULL] = {fe__draw_hull, fe__draw_hull_lines},
     [FE__FORM_PLANE] = {fe__draw_plane, fe__draw_plane_lines},
     [FE__FORM_HEIGHTFIELD] = {fe__draw_field, fe__draw_field_lines},

@@ -1,0 +1,31 @@
+// simd_sets.h - which SIMD sets were built, for whoever declares or chooses their kernels.
+//
+// The build defines FE_HAVE_SSE2 and the like for each set that a *.simd.c file is compiled for. Plain C always is.
+#ifndef FE_CORE_SIMD_SETS_H
+#define FE_CORE_SIMD_SETS_H
+
+#ifdef FE_HAVE_SSE2
+#define FE_SSE2_SET(X) X(FE_SIMD_SSE2, sse2)
+#else
+#define FE_SSE2_SET(X)
+#endif
+#ifdef FE_HAVE_NEON
+#define FE_NEON_SET(X) X(FE_SIMD_NEON, neon)
+#else
+#define FE_NEON_SET(X)
+#endif
+#ifdef FE_HAVE_AVX2
+#define FE_AVX2_SET(X) X(FE_SIMD_AVX2, avx2)
+#else
+#define FE_AVX2_SET(X)
+#endif
+#ifdef FE_HAVE_AVX512
+#define FE_AVX512_SET(X) X(FE_SIMD_AVX512, avx512)
+#else
+#define FE_AVX512_SET(X)
+#endif
+
+// X(value of fe_simd, suffix of the symbols) for each set but plain C
+#define FE_EACH_WIDE_SET(X) FE_SSE2_SET(X) FE_NEON_SET(X) FE_AVX2_SET(X) FE_AVX512_SET(X)
+
+#endif
