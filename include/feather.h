@@ -379,7 +379,7 @@ FE_API int32_t fe_hull_get_corners(const fe_store *store, fe_asset hull, int32_t
 
 /// What a mesh is built as.
 typedef enum fe_mesh_flags {
-    FE_MESH_TWO_SIDED = 1, ///< both sides of its triangles count
+    FE_MESH_TWO_SIDED = 1, ///< both sides of its triangles count; hits from behind are told apart by FE_HIT_BACK
     FE_MESH_STRICT = 2,    ///< a triangle that would be dropped is an error
     FE_MESH_FORCE32 = 0x7fffffff
 } fe_mesh_flags;
@@ -1420,6 +1420,7 @@ FE_API void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size);
 typedef enum fe_hit_flags {
     FE_HIT_DEFAULT = 0,
     FE_HIT_STARTED_INSIDE = 1, ///< overlaps at the start: fraction 0
+    FE_HIT_BACK = 2,           ///< met a triangle of a two-sided mesh from behind
     FE_HIT_FORCE32 = 0x7fffffff
 } fe_hit_flags;
 

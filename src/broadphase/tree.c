@@ -13,10 +13,14 @@ FE_EACH_WIDE_SET(DECLARE)
 
 const fe__tree_kernels *fe__tree_kernels_of(int32_t simd)
 {
-#define RETURN_IF(set, name) \
-    if (simd == (set)) return &fe__tree_kernels_##name;
-    FE_EACH_WIDE_SET(RETURN_IF)
-    return &fe__tree_kernels_plain;
+    switch (simd) {
+#define CASE(set, name) \
+    case set:           \
+        return &fe__tree_kernels_##name;
+        FE_EACH_WIDE_SET(CASE)
+    default:
+        return &fe__tree_kernels_plain;
+    }
 }
 
 void fe__tree_destroy(fe__tree *tree, fe__memory *memory)

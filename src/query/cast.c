@@ -177,6 +177,7 @@ static void report(const fe__scene *scene, const fe__probe *probe, int32_t index
     out->normal = is_turning(probe) ? fe__narrow(normal) : against_way(normal, way);
     out->depth = (float)hit->depth;
     out->flags = hit->inside ? FE_HIT_STARTED_INSIDE : 0u;
+    if (!hit->inside && fe__scene_is_back(scene, shape, hit->index, out->normal)) out->flags = FE_HIT_BACK;
     out->material = fe__scene_material(scene, shape, hit->index);
     out->part = fe__part_of_serial(shape->serial);
     out->triangle = hit->triangle;

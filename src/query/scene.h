@@ -66,6 +66,16 @@ static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *sh
     fe__ground_weights(&surface, index, local, out_weights);
 }
 
+// Does the normal, world space, look out of the back of a two-sided triangle?
+static inline int32_t fe__scene_is_back(const fe__scene *scene, const fe__shape *shape, int32_t index, fe_vec3 normal)
+{
+    if (!fe__form_is_field(&shape->form) || index < 0) return 0;
+    fe__ground surface = fe__scene_ground(scene, shape);
+    if (!fe__ground_is_two_sided(&surface)) return 0;
+    fe_dvec3 front = fe__drotate(shape->pose.rotation, fe__ground_normal(&surface, index));
+    return fe__ddot(front, fe__widen(normal)) < 0.0;
+}
+
 // The order of all answers: by the body's creation, then by the shape's.
 static inline int32_t fe__created_before(const fe__shape *a, const fe__shape *b)
 {

@@ -210,11 +210,15 @@ static void a_mesh_has_a_side_and_no_inside(void **state)
         fe_hit hit;
         HIT(fe_world_raycast(world, &above, &in, NULL, &hit));
         FE_NEAR(hit.fraction, 0.5, 1e-12);
+        assert_int_equal(hit.flags, FE_HIT_DEFAULT);
         HIT(fe_world_sweep(world, &ball, &from, &in, NULL, &hit));
         FE_NEAR(hit.fraction, 0.375, 1e-6);
+        assert_int_equal(hit.flags, FE_HIT_DEFAULT);
         int32_t seen = flags == FE_MESH_TWO_SIDED;
         assert_int_equal(fe_world_raycast(world, &behind, &out, NULL, &hit), seen);
+        if (seen) assert_int_equal(hit.flags, FE_HIT_BACK);
         assert_int_equal(fe_world_sweep(world, &ball, &back, &out, NULL, &hit), seen);
+        if (seen) assert_int_equal(hit.flags, FE_HIT_BACK);
         assert_int_equal(fe_world_overlap_any(world, &ball, &back, NULL), 0);
         assert_int_equal(fe_world_overlap_any(world, &point, &back, NULL), 0);
         assert_int_equal(fe_world_overlap_any(world, &ball, &on, NULL), 1);

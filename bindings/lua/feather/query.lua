@@ -29,7 +29,7 @@ local function hit_of(world, body, shape, x, y, z, fraction, material, nx, ny, n
     return {
         body = of(world, Body, body), shape = of(world, Shape, shape), x = x, y = y, z = z, fraction = fraction,
         material = material, nx = nx, ny = ny, nz = nz, depth = depth, part = part, triangle = triangle, u = u, v = v,
-        startedInside = flags % 2 == 1,
+        startedInside = flags % 2 == 1, back = flags >= 2,
     }
 end
 

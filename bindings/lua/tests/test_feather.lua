@@ -242,6 +242,14 @@ function TestPhysics.testMesh()
     lu.assertAlmostEquals(select(2, ball:getPosition()), 0.5, 5e-3)
     local hit = world:rayCast(3, 3, -3, 0, -10, 0)
     lu.assertEquals({ hit.triangle, hit.material }, { 1, 6 })
+    lu.assertFalse(hit.back)
+    local both = feather.newWorld()
+    both:newBody({ type = "static" }):newMesh(both:newMesh({ vertices = { -1, 0, -1, -1, 0, 1, 1, 0, -1 },
+        triangles = { 0, 1, 2 }, twoSided = true }))
+    for _, height in ipairs({ 1, -1 }) do
+        local met = both:rayCast(-0.5, height, -0.5, 0, -2 * height, 0)
+        lu.assertEquals({ met.ny, met.back }, { height, height < 0 })
+    end
     mesh:setMaterials({ {}, { userId = 11 } })
     lu.assertEquals(world:rayCast(3, 3, -3, 0, -10, 0).material, 11)
     local half = world:newBody({ type = "static", position = { 20, 0, 0 } }):newShape({ "mesh", mesh, -0.5, 1, 0.5 })

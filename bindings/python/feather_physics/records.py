@@ -152,7 +152,10 @@ class MassData(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """Where a ray or a sweep meets a body; see fe_hit in feather.h. `material` is the user_id of the surface."""
+    """
+    Where a ray or a sweep meets a body; see fe_hit in feather.h. `material` is the user_id of the surface; `back`: a
+    triangle of a two-sided mesh, met from behind.
+    """
 
     body: "Body"
     shape: "Shape"
@@ -165,6 +168,7 @@ class Hit(NamedTuple):
     part: int
     barycentric: Tuple[float, float]
     material: int
+    back: bool
 
 
 class Closest(NamedTuple):

@@ -751,9 +751,10 @@ class World:
     def _hit(self, flat: Any) -> Optional[records.Hit]:
         if flat is None:
             return None
-        body, shape, inside = Body(self, flat.body), Shape(self, flat.shape), flat.flags & 1 != 0
+        body, shape = Body(self, flat.body), Shape(self, flat.shape)
+        inside, back = flat.flags & _flat.FE_HIT_STARTED_INSIDE != 0, flat.flags & _flat.FE_HIT_BACK != 0
         hit = (flat.point, flat.fraction, flat.normal, flat.triangle, flat.depth, inside, flat.part)
-        return records.Hit(body, shape, *hit, flat.barycentric, flat.material)
+        return records.Hit(body, shape, *hit, flat.barycentric, flat.material, back)
 
     def _hits(self, read: Callable[..., int], *arguments: Any) -> List[records.Hit]:
         found = records.read_all(read, records.HIT, self._capsule, *arguments)
@@ -766,10 +767,11 @@ class World:
                 Vec3((nx, ny, nz)),
                 triangle,
                 depth,
-                flags & 1 != 0,
+                flags & _flat.FE_HIT_STARTED_INSIDE != 0,
                 part,
                 (u, v),
                 material,
+                flags & _flat.FE_HIT_BACK != 0,
             )
             for body, shape, x, y, z, fraction, material, nx, ny, nz, depth, part, triangle, u, v, flags in found
         ]

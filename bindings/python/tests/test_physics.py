@@ -434,6 +434,12 @@ def test_mesh(world: World) -> None:
     for indices in (flat, flat.astype(np.uint16), flat.astype(np.uint32), flat.astype(np.int32), flat.ravel().tolist()):
         other = world.create_mesh(np.array(vertices, dtype=np.float32), indices, two_sided=True, strict=True, weld_distance=1e-4, edge_angle=0.1)
         assert other.info.triangle_count == 2 and other.triangle(1).corners == triangle.corners  # type: ignore[union-attr]
+    both = World()
+    both.create_body("static").add(both.create_mesh([(-1, 0, -1), (-1, 0, 1), (1, 0, -1)], [(0, 1, 2)], two_sided=True))
+    for height in (1, -1):
+        hit = both.raycast((-0.5, height, -0.5), (0, -2 * height, 0))
+        assert hit and hit.normal.y == height and hit.back == (height < 0)
+        assert [h.back for h in both.raycast_all((-0.5, height, -0.5), (0, -2 * height, 0))] == [height < 0]
     for wrong in ({"strict": True}, {"triangle_materials": bytes(2)}, {"triangle_data": [1]}, {"weld_distance": -1}, {"materials": [Material()] * 256}):
         with pytest.raises(ValueError):
             world.create_mesh(vertices, triangles, **wrong)  # type: ignore[arg-type]

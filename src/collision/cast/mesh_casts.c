@@ -7,8 +7,12 @@ FE_EACH_WIDE_SET(DECLARE)
 
 const fe__mesh_casts *fe__mesh_casts_of(int32_t simd)
 {
-#define RETURN_IF(set, name) \
-    if (simd == (set)) return &fe__mesh_casts_##name;
-    FE_EACH_WIDE_SET(RETURN_IF)
-    return &fe__mesh_casts_plain;
+    switch (simd) {
+#define CASE(set, name) \
+    case set:           \
+        return &fe__mesh_casts_##name;
+        FE_EACH_WIDE_SET(CASE)
+    default:
+        return &fe__mesh_casts_plain;
+    }
 }
