@@ -106,8 +106,8 @@ static int32_t read_vertices(const fe__mesh_builder *b, int32_t leaf, uint32_t v
     return count;
 }
 
-// Vertices that are new to the group come behind those it has. 0: they are too many. What was placed then is of no group
-// that goes on
+// Vertices that are new to the group come behind those it has. 0: they are too many. What was placed then is of no
+// group that goes on
 static int32_t place_vertices(grouping *g, const uint32_t *vertex, int32_t vertex_count)
 {
     uint32_t *places = g->builder->place;
