@@ -60,7 +60,7 @@ static void keep_nearer(fe__core_gap *gap, fe_dvec3 on_triangle, fe_dvec3 on_oth
 {
     fe_dvec3 away = fe__dsub(on_other, on_triangle);
     double distance = sqrt(fe__ddot(away, away));
-    if (distance < gap->distance) *gap = (fe__core_gap){distance, on_triangle, away, 0.0};
+    if (distance < gap->distance) *gap = (fe__core_gap){.distance = distance, .on_frame = on_triangle, .away = away};
 }
 
 // The ends where they are over the triangle, the piercing point, the three sides.
@@ -72,7 +72,7 @@ static void segment_gap(const fe__approach *s, fe_dvec3 p, fe__core_gap *gap)
     if (fe__absd(height) <= half * fe__absd(slope) && slope != 0.0) {
         fe_dvec3 q = fe__dsub(p, fe__dscale(height / slope, a));
         if (is_over(v, n, q)) {
-            *gap = (fe__core_gap){0.0, q, {0.0, 0.0, 0.0}, 0.0};
+            *gap = (fe__core_gap){.on_frame = q};
             return;
         }
     }
