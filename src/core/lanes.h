@@ -38,7 +38,7 @@ FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__qu
 // one lane in all four
 #define FE_QUAD_SPREAD(x, lane) __builtin_shufflevector(x, x, lane, lane, lane, lane)
 // two doubles
-typedef double fe__pair __attribute__((vector_size(16)));
+typedef double fe__pair __attribute__((vector_size(16), may_alias));
 typedef int64_t fe__pair_int __attribute__((vector_size(16)));
 FE_LANES_INLINE fe__pair fe__pair_abs(fe__pair x) { return (fe__pair)((fe__pair_int)x & INT64_MAX); }
 FE_LANES_INLINE fe__pair fe__pair_choose(fe__pair_int mask, fe__pair yes, fe__pair no)
@@ -46,6 +46,8 @@ FE_LANES_INLINE fe__pair fe__pair_choose(fe__pair_int mask, fe__pair yes, fe__pa
     return (fe__pair)((mask & (fe__pair_int)yes) | (~mask & (fe__pair_int)no));
 }
 #if FE_LANES_X86
+FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y) { return (fe__pair)_mm_min_pd((__m128d)x, (__m128d)y); }
+FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y) { return (fe__pair)_mm_max_pd((__m128d)x, (__m128d)y); }
 FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair)_mm_cvtps_pd((__m128)x); }
 FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x)
 {
@@ -60,6 +62,8 @@ FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return (fe__quad
 // bit i: sign of lane i
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return (uint32_t)_mm_movemask_ps((__m128)x); }
 #else
+FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y) { return fe__pair_choose(x < y, x, y); }
+FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y) { return fe__pair_choose(x > y, x, y); }
 FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair){(double)x[0], (double)x[1]}; }
 FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x) { return (fe__pair){(double)x[2], (double)x[3]}; }
 FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)

@@ -16,7 +16,7 @@ static int32_t sort_triangles(fe_store *store, const fe__mesh_source *source, fe
                               fe__mesh_refusal *out_refusal, fe_result *result)
 {
     int64_t size = fe__mesh_scratch_size(source);
-    void *scratch = fe__making_room(store, size);
+    void *scratch = fe__making_scratch(store, size);
     if (!scratch) {
         *result = FE_ERROR_MEMORY;
         return 0;

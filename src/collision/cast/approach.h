@@ -32,7 +32,9 @@ typedef struct fe__core_gap {
     double distance; // 0: they overlap
     fe_dvec3 on_frame;
     fe_dvec3 away; // from there to the other core's nearest point
-    double size;   // of curved cores: of their difference, against which the distance is precise, m
+    // of curved cores
+    double size;     // of their difference, against which the distance is precise, m
+    double apart_by; // how far a plane holds them apart, m, if GJK met one
 } fe__core_gap;
 void fe__core_gap_of(const fe__approach *a, fe_dvec3 position,
                      fe__core_gap *gap); // of point and segment only, not of two boxes

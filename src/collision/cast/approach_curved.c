@@ -28,7 +28,7 @@ static void gap_of(const fe__cores *cores, fe__core_gap *gap)
 {
     fe__gjk gjk;
     fe__gjk_distance_closely(cores, &gjk);
-    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way, gjk.size};
+    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way, gjk.size, gjk.apart_by};
 }
 
 void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
@@ -89,10 +89,12 @@ static fe_dvec3 nearest_side(const fe__approach *s, fe_dvec3 n)
 // distance, then what is sure of it.
 static double make_sure(const fe__approach *s, const fe__cores *cores, fe__core_gap *gap)
 {
-    double size = gap->size;
+    double size = gap->size, least = gap->distance - ROUNDINGS * size * (size / gap->distance);
     fe_dvec3 n = fe__dscale(1.0 / gap->distance, gap->away), side = nearest_side(s, n);
-    double sure = sure_distance(cores, n), least = gap->distance - ROUNDINGS * size * (size / gap->distance);
-    if (sure < least || fe__ddot(side, n) > NEARLY_ALONG) {
+    int32_t is_along = fe__ddot(side, n) > NEARLY_ALONG;
+    if (!is_along && gap->apart_by >= least) return gap->distance; // GJK has met a plane that shows it
+    double sure = sure_distance(cores, n);
+    if (sure < least || is_along) {
         double by_side = sure_distance(cores, side);
         if (by_side > sure) sure = by_side, gap->away = fe__dscale(gap->distance, side);
     }

@@ -18,40 +18,49 @@ void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe
     *u = fe__mind(fe__maxd(*w * cosine - along_a, -half), half);
 }
 
-static fe_dvec3 nearest_on_side(fe_dvec3 a, fe_dvec3 b, fe_dvec3 p)
+// Left of a side, seen from where the normal points; `from`: from the side's start to the point
+static inline int32_t is_left(fe_dvec3 n, fe_dvec3 side, fe_dvec3 from)
 {
-    fe_dvec3 side = fe__dsub(b, a);
-    double t = fe__ddot(fe__dsub(p, a), side) / fe__ddot(side, side);
-    return fe__dadd(a, fe__dscale(fe__mind(fe__maxd(t, 0.0), 1.0), side));
+    return !(fe__ddot(fe__dcross(n, side), from) < 0.0);
 }
 
-// Left of all sides, seen from where the normal points
+// Left of all sides
 static int32_t is_over(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p)
 {
-    for (int32_t i = 0; i < 3; ++i) {
-        if (fe__ddot(fe__dcross(n, fe__dsub(v[(i + 1) % 3], v[i])), fe__dsub(p, v[i])) < 0.0) return 0;
-    }
-    return 1;
+    return is_left(n, fe__dsub(v[1], v[0]), fe__dsub(p, v[0])) && is_left(n, fe__dsub(v[2], v[1]), fe__dsub(p, v[1])) &&
+           is_left(n, fe__dsub(v[0], v[2]), fe__dsub(p, v[2]));
+}
+
+typedef struct nearest {
+    fe_dvec3 point;
+    double square; // of the distance
+} nearest;
+
+static inline void ask_side(fe_dvec3 start, fe_dvec3 side, fe_dvec3 from, fe_dvec3 p, nearest *best)
+{
+    double t = fe__ddot(from, side) / fe__ddot(side, side);
+    fe_dvec3 q = fe__dadd(start, fe__dscale(fe__mind(fe__maxd(t, 0.0), 1.0), side)), d = fe__dsub(p, q);
+    double square = fe__ddot(d, d);
+    if (square < best->square) *best = (nearest){q, square};
 }
 
 fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p)
 {
-    if (is_over(v, n, p)) return fe__dsub(p, fe__dscale(fe__ddot(n, fe__dsub(p, v[0])), n));
-    fe_dvec3 best = v[0];
-    double least = (double)INFINITY;
-    for (int32_t i = 0; i < 3; ++i) {
-        fe_dvec3 q = nearest_on_side(v[i], v[(i + 1) % 3], p), d = fe__dsub(p, q);
-        double square = fe__ddot(d, d);
-        if (square < least) least = square, best = q;
-    }
-    return best;
+    fe_dvec3 ab = fe__dsub(v[1], v[0]), bc = fe__dsub(v[2], v[1]), ca = fe__dsub(v[0], v[2]);
+    fe_dvec3 a = fe__dsub(p, v[0]), b = fe__dsub(p, v[1]), c = fe__dsub(p, v[2]);
+    if (is_left(n, ab, a) && is_left(n, bc, b) && is_left(n, ca, c)) return fe__dsub(p, fe__dscale(fe__ddot(n, a), n));
+    nearest best = {v[0], (double)INFINITY};
+    ask_side(v[0], ab, a, p, &best);
+    ask_side(v[1], bc, b, p, &best);
+    ask_side(v[2], ca, c, p, &best);
+    return best.point;
 }
 
 static void keep_nearer(fe__core_gap *gap, fe_dvec3 on_triangle, fe_dvec3 on_other)
 {
     fe_dvec3 away = fe__dsub(on_other, on_triangle);
     double distance = sqrt(fe__ddot(away, away));
-    if (distance < gap->distance) *gap = (fe__core_gap){distance, on_triangle, away, 0.0};
+    if (distance < gap->distance) *gap = (fe__core_gap){.distance = distance, .on_frame = on_triangle, .away = away};
 }
 
 // The ends where they are over the triangle, the piercing point, the three sides.
@@ -63,7 +72,7 @@ static void segment_gap(const fe__approach *s, fe_dvec3 p, fe__core_gap *gap)
     if (fe__absd(height) <= half * fe__absd(slope) && slope != 0.0) {
         fe_dvec3 q = fe__dsub(p, fe__dscale(height / slope, a));
         if (is_over(v, n, q)) {
-            *gap = (fe__core_gap){0.0, q, {0.0, 0.0, 0.0}, 0.0};
+            *gap = (fe__core_gap){.on_frame = q};
             return;
         }
     }

@@ -146,7 +146,7 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
 // Where the passer's lowest point is over a plane, at t, is  height + t rate.  It is in the hull from the last plane
 // that it comes in through to the first that it goes out through, if at all.
 //
-// Floats: a height is off by some roundings of the lengths involved, 2^-24 of their sum each, so `rounding` of that is
+// Floats: a height is off by some roundings of the lengths involved, 2^-24 of their sum each, so a share of that is
 // taken from it. That covers what t is rounded by: it moves the passer by no more.
 typedef struct floats3 {
     fe__quad x, y, z;
@@ -160,17 +160,18 @@ static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd
 
 static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
+static const double share = 0x1p-19;    // of the lengths, which is taken
+static const double too_far = 1e25;     // m: floats hold products of less and of unit vectors
+static const float least_rate = 1e-30f; // what is no faster is still
+
 int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, double limit)
 {
-    const double rounding = 0x1p-19;
-    const double farthest = 1e25; // m: floats hold products of it and of unit vectors
-    const float least = 1e-30f;   // what is no faster is still
     double arms = size(p->half[0]) + size(p->half[1]) + size(p->half[2]), radius = p->radius;
-    radius += rounding * (size(p->origin) + size(p->translation) + arms + radius + (double)hull->extent);
-    if (!(radius < rounding * farthest)) return 0;
+    radius += share * (size(p->origin) + size(p->translation) + arms + radius + (double)hull->extent);
+    if (!(radius < share * too_far)) return 0;
     const floats3 origin = spread(p->origin), way = spread(p->translation), a = spread(p->half[0]),
                   b = spread(p->half[1]), c = spread(p->half[2]);
-    const fe__quad clear = fe__quad_set((float)radius), none = fe__quad_set(0.0f), slow = fe__quad_set(least);
+    const fe__quad clear = fe__quad_set((float)radius), none = fe__quad_set(0.0f), slow = fe__quad_set(least_rate);
     fe__quad enter = none, stay = fe__quad_set((float)-limit); // `stay` is the last t, negative
     for (int32_t i = 0; i < hull->face_count; i += 4) {
         const floats3 n = {*(const fe__quad *)(hull->normals.x + i), *(const fe__quad *)(hull->normals.y + i),
@@ -216,6 +217,61 @@ static crossing cross_planes(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 tra
     return c;
 }
 
+// The same in floats, between bounds: as above, a height is known to a share of the lengths. Most rays miss, or it is
+// clear that they leave no sooner than they enter: then few faces are left through which they may enter.
+typedef struct rough_crossing {
+    float enter, latest, leave; // t: enters no sooner than the first, no later than the second; leaves no sooner
+    int32_t misses;             // surely, up to the limit
+    _Alignas(16) float entry[MOST_LANES]; // of a face: no sooner is it entered through; below 0: never
+} rough_crossing;
+
+static void cross_roughly(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, rough_crossing *c)
+{
+    double error = share * (size(origin) + size(translation) + (double)hull->extent);
+    c->misses = 0, c->enter = -1.0f;
+    if (!(error < share * too_far)) return;
+    const floats3 o = spread(origin), way = spread(translation);
+    const fe__quad spare = fe__quad_set((float)error), none = fe__quad_set(0.0f), slow = fe__quad_set(least_rate),
+                   never = fe__quad_set(-1.0f);
+    fe__quad enter = none, latest = none, stay = fe__quad_set((float)-limit), leave = fe__quad_set(-INFINITY);
+    for (int32_t i = 0; i < hull->face_count; i += 4) {
+        const floats3 n = {*(const fe__quad *)(hull->normals.x + i), *(const fe__quad *)(hull->normals.y + i),
+                           *(const fe__quad *)(hull->normals.z + i)};
+        fe__quad height = dot(&n, &o) - *(const fe__quad *)(hull->distances + i), rate = dot(&n, &way);
+        fe__quad_int comes = rate <= none;
+        fe__quad speed = fe__quad_choose(comes, slow - rate, rate);
+        fe__quad low = (height - spare) / speed, high = (height + spare) / speed;
+        enter = fe__quad_max(fe__quad_choose(comes, low, none), enter);
+        latest = fe__quad_max(fe__quad_choose(comes, high, none), latest);
+        stay = fe__quad_max(fe__quad_choose(comes, stay, low), stay); // negative, as `leave`
+        leave = fe__quad_max(fe__quad_choose(comes, leave, high), leave);
+        *(fe__quad *)(c->entry + i) = fe__quad_choose(comes, high, never);
+    }
+    c->enter = largest(enter), c->latest = largest(latest), c->leave = -largest(leave);
+    c->misses = c->enter > -largest(stay);
+}
+
+// Of the faces left the one that the ray enters through last, as cross_planes() finds it; -1: it is not clear
+static int32_t entered_face(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, const rough_crossing *rough,
+                            double *out_enter)
+{
+    int32_t face = -1;
+    if (!(rough->enter > 0.0f && rough->latest <= rough->leave)) return -1;
+    const fe__quad from = fe__quad_set(rough->enter);
+    for (int32_t i = 0; i < hull->face_count; i += 4) {
+        uint32_t left = fe__quad_signs(*(const fe__quad *)(rough->entry + i) >= from);
+        for (; left; left &= left - 1) {
+            int32_t k = i + __builtin_ctz(left);
+            fe_dvec3 n = fe__widen(fe__hull_normal(hull, k));
+            double height = fe__ddot(n, origin) - (double)hull->distances[k], rate = fe__ddot(n, translation);
+            if (!(rate < 0.0 && height > 0.0) || (face >= 0 && !(-height / rate > *out_enter))) continue;
+            *out_enter = -height / rate;
+            face = k;
+        }
+    }
+    return face;
+}
+
 static fe_dvec3 against(fe_dvec3 translation, fe_dvec3 way_out)
 {
     double most = fe__maxd(fe__absd(translation.x), fe__maxd(fe__absd(translation.y), fe__absd(translation.z)));
@@ -226,8 +282,16 @@ static fe_dvec3 against(fe_dvec3 translation, fe_dvec3 way_out)
 
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
-    const fe__hull_passer point = {.origin = origin, .translation = translation};
-    if (fe__hull_is_passed(hull, &point, limit)) return 0;
+    rough_crossing rough;
+    double enter;
+    cross_roughly(hull, origin, translation, limit, &rough);
+    if (rough.misses) return 0;
+    int32_t face = entered_face(hull, origin, translation, &rough, &enter);
+    if (face >= 0) {
+        if (enter > limit) return 0;
+        *hit = (fe__ray_hit){.t = enter, .normal = fe__hull_unit_normal(hull, face), .triangle = face};
+        return 1;
+    }
     crossing c = cross_planes(hull, origin, translation);
     if (c.highest <= 0.0) {
         fe_dvec3 normal = against(translation, fe__hull_unit_normal(hull, c.nearest));

@@ -2,6 +2,7 @@
 #include "collision/hull_build/build.h"
 
 #include "collision/hull_build/measure.h"
+#include "core/lanes.h"
 
 #include <float.h>
 
@@ -36,24 +37,48 @@ static void choose_tolerance(fe__hull_builder *b, double given)
     b->surface.tolerance = outside_share * b->tolerance / b->cloud.step;
 }
 
-static double depth_below(const fe__grid_plane *plane, const fe_dvec3 *vertices, int32_t count)
+// Vertices on the grid, two side by side; an odd last one stands twice.
+typedef struct grid_vertices {
+    fe__pair x[FE__SURFACE_VERTICES / 2], y[FE__SURFACE_VERTICES / 2], z[FE__SURFACE_VERTICES / 2];
+    int32_t pairs;
+} grid_vertices;
+
+static void read_vertices(const fe__hull_surface *s, grid_vertices *out)
 {
-    double lowest = 0.0;
-    for (int32_t i = 0; i < count; ++i) lowest = fe__mind(lowest, fe__grid_height(plane, vertices[i]));
-    return -lowest;
+    int32_t count = 0;
+    for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v) {
+        if (s->point[v] < 0) continue;
+        fe_dvec3 p = fe__vertex_on_grid(s, v);
+        int32_t at = count / 2;
+        if (count++ % 2)
+            out->x[at][1] = p.x, out->y[at][1] = p.y, out->z[at][1] = p.z;
+        else
+            out->x[at] = (fe__pair){p.x, p.x}, out->y[at] = (fe__pair){p.y, p.y}, out->z[at] = (fe__pair){p.z, p.z};
+    }
+    out->pairs = (count + 1) / 2;
+}
+
+// fe__grid_height of the lowest, downwards
+static double depth_below(const fe__grid_plane *plane, const grid_vertices *v)
+{
+    const fe__pair x = {plane->unit.x, plane->unit.x}, y = {plane->unit.y, plane->unit.y},
+                   z = {plane->unit.z, plane->unit.z}, offset = {plane->offset, plane->offset};
+    fe__pair lowest = {0.0, 0.0};
+    for (int32_t i = 0; i < v->pairs; ++i)
+        lowest = fe__pair_min(x * v->x[i] + y * v->y[i] + z * v->z[i] - offset, lowest);
+    return -fe__mind(lowest[0], lowest[1]);
 }
 
 // Of the surface: the least width between a triangle and the vertex farthest below it, m
 static int32_t thinnest_triangle(const fe__hull_surface *s, double *out_thickness)
 {
-    fe_dvec3 vertices[FE__SURFACE_VERTICES];
-    int32_t thinnest = -1, count = 0;
+    grid_vertices vertices;
+    int32_t thinnest = -1;
     double least = DBL_MAX;
-    for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
-        if (s->point[v] >= 0) vertices[count++] = fe__vertex_on_grid(s, v);
+    read_vertices(s, &vertices);
     for (int32_t i = 0; i < s->triangle_end; ++i) {
         if (!s->triangles[i].alive) continue;
-        double depth = depth_below(&s->triangles[i].plane, vertices, count);
+        double depth = depth_below(&s->triangles[i].plane, &vertices);
         if (depth >= least) continue;
         least = depth;
         thinnest = i;

@@ -33,7 +33,7 @@ void fe__cloud_measure(fe__cloud *cloud)
     cloud->step = power_below(cloud->extent) / (double)(1 << GRID_BITS);
 }
 
-static double nearest_integer(double x) { return (double)(int64_t)(x < 0.0 ? x - 0.5 : x + 0.5); }
+static double nearest_integer(double x) { return (double)(int64_t)(x + __builtin_copysign(0.5, x)); }
 
 void fe__cloud_snap(fe__cloud *cloud)
 {

@@ -159,8 +159,35 @@ static void claim_back(fe__facets *f, int32_t seed)
     }
 }
 
+// Most triangles of a cloud in general position are facets by themselves: no neighbour fits, and no rim is to be made.
+static int32_t stands_alone(const fe__facets *f, int32_t seed)
+{
+    const fe__surface_triangle *t = &f->surface->triangles[seed];
+    for (int32_t k = 0; k < 3; ++k) {
+        int32_t twin = t->twin[k], triangle = twin / 3;
+        if (f->facet_of[triangle] < 0 && fits(f, seed, triangle, fe__edge_end(f->surface, fe__next_corner(twin))))
+            return 0;
+    }
+    return 1;
+}
+
+static void keep_triangle(fe__facets *f, int32_t seed)
+{
+    const fe__surface_triangle *t = &f->surface->triangles[seed];
+    f->facet_of[seed] = f->count;
+    f->facets[f->count++] = (fe__facet){seed, f->corner_count, 3};
+    for (int32_t k = 0; k < 3; ++k) {
+        f->corner[f->corner_count] = t->corner[k];
+        f->across[f->corner_count++] = t->twin[k] / 3;
+    }
+}
+
 static void grow_facet(fe__facets *f, int32_t seed)
 {
+    if (stands_alone(f, seed)) {
+        keep_triangle(f, seed);
+        return;
+    }
     for (;;) {
         begin_ring(f, seed, f->count);
         while (f->try_count) try_edge(f, f->to_try[--f->try_count], seed, f->count);
@@ -178,35 +205,38 @@ static void grow_facet(fe__facets *f, int32_t seed)
 static void grow_all(fe__facets *f)
 {
     f->count = f->corner_count = f->again = 0;
-    for (int32_t i = 0; i < FE__SURFACE_TRIANGLES; ++i) f->facet_of[i] = -1;
+    for (int32_t i = 0; i < f->surface->triangle_end; ++i) f->facet_of[i] = -1;
     for (int32_t i = 0; i < f->living; ++i)
         if (f->facet_of[f->order[i]] < 0) grow_facet(f, f->order[i]);
     for (int32_t i = 0; i < f->corner_count; ++i) f->across[i] = f->facet_of[f->across[i]];
 }
 
 // ---- neighbours ----------------------------------------------------------------------------------------------------
-// (normal_left x normal_right) . side, of unit vectors: the sine of the bend, where it is about the side
-static double bend(const fe__facets *f, int32_t facet, int32_t i)
+// Do they turn away from each other? (normal_left x normal_right) . side, of unit vectors, is the sine of the bend,
+// where it is about the side.
+static int32_t bends(const fe__facets *f, int32_t facet, int32_t i)
 {
     const fe__facet *loop = &f->facets[facet];
     int32_t next = i + 1 < loop->first + loop->count ? i + 1 : loop->first;
     fe_dvec3 side =
         fe__dsub(fe__vertex_on_grid(f->surface, f->corner[next]), fe__vertex_on_grid(f->surface, f->corner[i]));
     const fe__grid_plane *left = fe__facet_plane(f, facet), *right = fe__facet_plane(f, f->across[i]);
-    fe_dvec3 l = fe__dscale(left->per_length, left->normal), r = fe__dscale(right->per_length, right->normal);
-    return fe__ddot(fe__dcross(l, r), side) / sqrt(fe__ddot(side, side));
+    double turn = fe__ddot(fe__dcross(left->unit, right->unit), side), square = fe__ddot(side, side);
+    if (turn > 0.0 && turn * turn > 4.0 * least_bend * least_bend * square) return 1; // most do so, by far
+    return turn / sqrt(square) > least_bend;
 }
 
-// 1: a slab became thinner, where neighbours do not turn away from each other
+// 1: a slab became thinner, where neighbours do not turn away from each other. Both sides of an edge bend alike: it is
+// asked from the first facet, and counts for each side.
 static int32_t mend(fe__facets *f)
 {
     int32_t thinner = f->again;
     for (int32_t facet = 0; facet < f->count; ++facet) {
         const fe__facet *loop = &f->facets[facet];
         for (int32_t i = loop->first; i < loop->first + loop->count; ++i) {
-            if (bend(f, facet, i) > least_bend) continue;
-            thinner |= make_thinner(f, facet);
-            thinner |= make_thinner(f, f->across[i]);
+            if (f->across[i] < facet || bends(f, facet, i)) continue;
+            for (int32_t sides = 0; sides < 2; ++sides)
+                thinner |= make_thinner(f, facet) | make_thinner(f, f->across[i]);
         }
     }
     return thinner;

@@ -13,7 +13,9 @@ static fe_dvec3 side_of(const fe__hull_builder *b, int32_t from, int32_t to)
 int32_t fe__hull_is_known_direction(const fe_dvec3 *known, int32_t count, fe_dvec3 direction)
 {
     static const double parallel = 1e-5; // sine
+    static const double nearly = 0.99;   // cosine
     for (int32_t i = 0; i < count; ++i) {
+        if (fe__absd(fe__ddot(known[i], direction)) < nearly) continue;
         fe_dvec3 n = fe__dcross(known[i], direction);
         if (fe__ddot(n, n) <= parallel * parallel) return 1;
     }

@@ -16,11 +16,14 @@ typedef struct moments {
     fe__tensor second;
 } moments;
 
-static void add_square(fe__tensor *sum, double weight, fe_dvec3 v)
+static inline void add_row(double row[3], double weight, fe_dvec3 v)
 {
-    const double a[3] = {v.x, v.y, v.z};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) sum->m[i][j] += weight * a[i] * a[j];
+    row[0] += weight * v.x, row[1] += weight * v.y, row[2] += weight * v.z;
+}
+
+static inline __attribute__((always_inline)) void add_square(fe__tensor *sum, double weight, fe_dvec3 v)
+{
+    add_row(sum->m[0], weight * v.x, v), add_row(sum->m[1], weight * v.y, v), add_row(sum->m[2], weight * v.z, v);
 }
 
 static void add_tetrahedron(moments *m, fe_dvec3 a, fe_dvec3 b, fe_dvec3 c)
@@ -97,17 +100,27 @@ static double height_outside(const fe__hull *h, fe_dvec3 point)
 
 // Of points that wait at a triangle. A facet's plane is that of a triangle, lower by the slab at most: a point that is
 // no higher above the triangle that it waits at, its highest, need not be measured.
-static double error_of_waiting(const fe__hull_builder *b, const fe__hull *h, const fe__surface_triangle *t, double most)
+static double error_of_waiting(const fe__hull_builder *b, const fe__hull *h, int32_t triangle, double most)
 {
     static const double rounding = 16.0; // steps of the grid, of the planes' floats
     const fe__cloud *cloud = &b->cloud;
+    const fe__surface_triangle *t = &b->surface.triangles[triangle];
     double lower = (b->facets.slab + rounding) * cloud->step;
-    if (t->farthest < 0 || t->farthest_height * cloud->step + lower <= most) return most;
+    if (b->surface.height[triangle] == 0.0 || b->surface.height[triangle] * cloud->step + lower <= most) return most;
     most = fe__maxd(most, height_outside(h, fe__cloud_point(cloud, t->farthest)));
     for (int32_t p = t->first_point; p >= 0; p = b->surface.next_point[p])
         if (fe__grid_height(&t->plane, cloud->grid[p]) * cloud->step + lower > most)
             most = fe__maxd(most, height_outside(h, fe__cloud_point(cloud, p)));
     return most;
+}
+
+// With the farthest known, few others are measured.
+static int32_t highest_triangle(const fe__hull_surface *s)
+{
+    int32_t highest = 0;
+    for (int32_t i = 1; i < s->triangle_end; ++i)
+        if (s->height[i] > s->height[highest]) highest = i;
+    return highest;
 }
 
 // Of the points that still wait outside, and of vertices that became none. All others are inside of these.
@@ -118,7 +131,7 @@ void fe__hull_measure_error(const fe__hull_builder *b, fe__hull *h)
     for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
         if (s->point[v] >= 0 && b->number[v] < 0)
             most = fe__maxd(most, height_outside(h, fe__cloud_point(&b->cloud, s->point[v])));
-    for (int32_t i = 0; i < s->triangle_end; ++i)
-        if (s->triangles[i].alive) most = error_of_waiting(b, h, &s->triangles[i], most);
+    most = error_of_waiting(b, h, highest_triangle(s), most);
+    for (int32_t i = 0; i < s->triangle_end; ++i) most = error_of_waiting(b, h, i, most);
     h->error = fe__float_above(most);
 }

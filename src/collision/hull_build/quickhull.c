@@ -1,6 +1,8 @@
 // quickhull.c - points are added to the surface, the farthest first. See surface.h.
 #include "collision/hull_build/surface.h"
 
+#include "core/lanes.h"
+
 // A point that is less high, in steps of the grid, counts as inside: rounding to the grid moved it farther.
 static const double least_height = 0.25;
 
@@ -9,7 +11,10 @@ int32_t fe__surface_new_triangle(fe__hull_surface *s, int32_t a, int32_t b, int3
 {
     int32_t i = s->free_count ? s->free_triangles[--s->free_count] : s->triangle_end++;
     fe__surface_triangle *t = &s->triangles[i];
-    *t = (fe__surface_triangle){.farthest = -1, .first_point = -1, .corner = {a, b, c}, .alive = 1};
+    t->farthest = t->first_point = -1;
+    t->corner[0] = a, t->corner[1] = b, t->corner[2] = c;
+    t->alive = 1, t->seen = 0;
+    s->height[i] = 0.0;
     fe__grid_plane_through(fe__vertex_on_grid(s, a), fe__vertex_on_grid(s, b), fe__vertex_on_grid(s, c), &t->plane);
     for (int32_t k = 0; k < 3; ++k) s->degree[t->corner[k]] += 1;
     return i;
@@ -26,6 +31,7 @@ static void free_triangle(fe__hull_surface *s, int32_t i)
 {
     fe__surface_triangle *t = &s->triangles[i];
     t->alive = 0;
+    s->height[i] = 0.0;
     s->free_triangles[s->free_count++] = i;
     for (int32_t k = 0; k < 3; ++k) {
         int32_t vertex = t->corner[k];
@@ -48,32 +54,43 @@ static void wait_at(fe__hull_surface *s, int32_t triangle, int32_t point, double
     fe__surface_triangle *t = &s->triangles[triangle];
     s->next_point[point] = t->first_point;
     t->first_point = point;
-    if (t->farthest >= 0 && height < t->farthest_height) return;
-    if (t->farthest >= 0 && height == t->farthest_height && !is_farther(s->cloud, point, t->farthest)) return;
+    if (height < s->height[triangle]) return;
+    if (height == s->height[triangle] && !is_farther(s->cloud, point, t->farthest)) return;
     t->farthest = point;
-    t->farthest_height = height;
+    s->height[triangle] = height;
 }
 
 void fe__surface_choose_among(fe__hull_surface *s, const int32_t *triangles, int32_t count)
 {
+    fe__surface_planes *planes = &s->planes;
     for (int32_t i = 0; i < count; ++i) {
         const fe__grid_plane *plane = &s->triangles[triangles[i]].plane;
-        s->faces[i] = (fe__surface_face){plane->unit, plane->offset};
+        planes->x[i] = plane->unit.x, planes->y[i] = plane->unit.y, planes->z[i] = plane->unit.z;
+        planes->offset[i] = plane->offset;
     }
+    if (count % 2 == 0) return;
+    planes->x[count] = planes->y[count] = planes->z[count] = 0.0;
+    planes->offset[count] = (double)INFINITY; // nothing is above it
 }
 
+// Which plane is above is a guess as good as any: nothing branches on it.
 void fe__surface_give(fe__hull_surface *s, int32_t point, const int32_t *triangles, int32_t count)
 {
+    const fe__pair *px = (const fe__pair *)s->planes.x, *py = (const fe__pair *)s->planes.y,
+                   *pz = (const fe__pair *)s->planes.z, *offset = (const fe__pair *)s->planes.offset;
     fe_dvec3 p = s->cloud->grid[point];
-    double best = least_height;
-    int32_t at = -1;
-    for (int32_t i = 0; i < count; ++i) {
-        double height = fe__ddot(s->faces[i].unit, p) - s->faces[i].offset;
-        if (height <= best) continue;
-        best = height;
-        at = i;
+    const fe__pair x = {p.x, p.x}, y = {p.y, p.y}, z = {p.z, p.z};
+    fe__pair best = {least_height, least_height};
+    fe__pair_int at = {-1, -1}, number = {0, 1};
+    for (int32_t i = 0; i < (count + 1) / 2; ++i, number += 2) {
+        fe__pair height = px[i] * x + py[i] * y + pz[i] * z - offset[i];
+        fe__pair_int is_higher = height > best;
+        best = fe__pair_max(height, best);
+        at = (is_higher & number) | (~is_higher & at);
     }
-    if (at >= 0) wait_at(s, triangles[at], point, best);
+    int32_t second = best[1] > best[0] || (best[1] == best[0] && at[1] < at[0]);
+    int64_t highest = second ? at[1] : at[0];
+    if (highest >= 0) wait_at(s, triangles[highest], point, second ? best[1] : best[0]);
 }
 
 // ---- adding a point ------------------------------------------------------------------------------------------------
@@ -146,34 +163,71 @@ static void add_farthest(fe__hull_surface *s, int32_t triangle)
 static int32_t highest_triangle(const fe__hull_surface *s)
 {
     int32_t best = -1;
-    for (int32_t i = 0; i < s->triangle_end; ++i) {
-        const fe__surface_triangle *t = &s->triangles[i];
-        if (!t->alive || t->farthest < 0) continue;
-        if (best < 0 || t->farthest_height > s->triangles[best].farthest_height) best = i;
-    }
+    double most = 0.0;
+    for (int32_t i = 0; i < s->triangle_end; ++i)
+        if (s->height[i] > most) most = s->height[i], best = i;
     return best;
 }
 
-// Gives all points that wait to the triangle of the whole surface that they are highest above.
-static void look_at_all(fe__hull_surface *s)
+// The points that wait, taken from their triangles: those of a triangle follow each other, the last triangle's first.
+static int32_t take_waiting(fe__hull_surface *s, int32_t *counts)
 {
-    int32_t living = 0, waiting = -1, all[FE__SURFACE_TRIANGLES];
+    int32_t waiting = -1;
     for (int32_t i = 0; i < s->triangle_end; ++i) {
         fe__surface_triangle *t = &s->triangles[i];
+        counts[i] = 0;
         if (!t->alive) continue;
-        all[living++] = i;
         for (int32_t p = t->first_point, next; p >= 0; p = next) {
             next = s->next_point[p];
             s->next_point[p] = waiting;
             waiting = p;
+            counts[i] += 1;
         }
         t->first_point = t->farthest = -1;
-        t->farthest_height = 0.0;
+        s->height[i] = 0.0;
     }
-    fe__surface_choose_among(s, all, living);
-    for (int32_t p = waiting, next; p >= 0; p = next) {
-        next = s->next_point[p];
-        fe__surface_give(s, p, all, living);
+    return waiting;
+}
+
+typedef struct look {
+    int32_t met[FE__SURFACE_TRIANGLES]; // by which look
+    int32_t number;                     // of this look, from 1 on
+} look;
+
+// Gives a point to the triangle of the whole surface that it is highest above, of equals to the first. What it sees is
+// connected, from a triangle `from` that it sees: so the others need not be asked. Heights are rounded by far less than
+// least_height: what is so far below is not seen.
+static void give_to_highest(fe__hull_surface *s, int32_t point, int32_t from, look *l)
+{
+    fe_dvec3 p = s->cloud->grid[point];
+    double most = least_height;
+    int32_t best = -1, count = 0;
+    l->met[from] = ++l->number;
+    s->seen[count++] = from;
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__surface_triangle *t = &s->triangles[s->seen[i]];
+        double height = fe__grid_height(&t->plane, p);
+        if (height < -least_height) continue;
+        if (height > most || (height == most && s->seen[i] < best)) most = height, best = s->seen[i];
+        for (int32_t k = 0; k < 3; ++k) {
+            int32_t next = t->twin[k] / 3;
+            if (l->met[next] != l->number) s->seen[count++] = next;
+            l->met[next] = l->number;
+        }
+    }
+    if (best >= 0) wait_at(s, best, point, most);
+}
+
+// All points that wait are given again, among all triangles: until now each chose in the fan that hid its triangle.
+static void look_at_all(fe__hull_surface *s)
+{
+    int32_t counts[FE__SURFACE_TRIANGLES], waiting = take_waiting(s, counts);
+    look l = {.number = 0};
+    for (int32_t i = s->triangle_end - 1; i >= 0; --i) {
+        for (int32_t next; counts[i] > 0; counts[i] -= 1, waiting = next) {
+            next = s->next_point[waiting];
+            give_to_highest(s, waiting, i, &l);
+        }
     }
 }
 
@@ -181,7 +235,7 @@ void fe__surface_grow(fe__hull_surface *s)
 {
     for (int32_t looked = 0;;) {
         int32_t highest = highest_triangle(s);
-        double height = highest < 0 ? 0.0 : s->triangles[highest].farthest_height;
+        double height = highest < 0 ? 0.0 : s->height[highest];
         int32_t is_done = highest < 0 || height <= s->tolerance || s->vertex_count >= s->most_vertices;
         s->error = height;
         if (is_done && looked) return;

@@ -1,6 +1,8 @@
 // record.c - see record.h. What the arrays hold, and in which order, stands in form/hull.h.
 #include "collision/hull_build/record.h"
 
+#include "core/lanes.h"
+
 // ---- room ----------------------------------------------------------------------------------------------------------
 // Hands out arrays one after another; without a block it only counts.
 typedef struct room {
@@ -64,7 +66,7 @@ void fe__hull_connect(fe__hull *h, const uint16_t *half)
         int32_t count = faces[face].count;
         faces[face].first = (uint16_t)first, faces[face].edge = half[first];
         for (int32_t k = 0; k < count; ++k) {
-            uint16_t own = half[first + k], next = half[first + (k + 1) % count];
+            uint16_t own = half[first + k], next = half[k + 1 < count ? first + k + 1 : first];
             edges[own] = (fe__hull_edge){next, (uint16_t)face, h->corners[first + k], {0, 0, 0}};
             spokes[h->corners[first + k]] = own;
         }
@@ -84,10 +86,29 @@ static double along(const fe__hull *h, fe_vec3 normal, int32_t vertex)
     return fe__ddot(fe__widen(normal), fe__widen(fe__hull_vertex(h, vertex)));
 }
 
+// Of all vertices, four at a time
+static double farthest_along(const fe__hull *h, fe_vec3 normal)
+{
+    const double n[3] = {(double)normal.x, (double)normal.y, (double)normal.z};
+    const fe__pair x = {n[0], n[0]}, y = {n[1], n[1]}, z = {n[2], n[2]};
+    double first = along(h, normal, 0);
+    fe__pair most = {first, first};
+    int32_t whole = h->vertex_count / 4 * 4;
+    for (int32_t v = 0; v < whole; v += 4) {
+        fe__quad vx = *(const fe__quad *)(h->vertices.x + v), vy = *(const fe__quad *)(h->vertices.y + v),
+                 vz = *(const fe__quad *)(h->vertices.z + v);
+        most = fe__pair_max(x * fe__pair_low(vx) + y * fe__pair_low(vy) + z * fe__pair_low(vz), most);
+        most = fe__pair_max(x * fe__pair_high(vx) + y * fe__pair_high(vy) + z * fe__pair_high(vz), most);
+    }
+    double farthest = fe__maxd(most[0], most[1]);
+    int32_t rest = farthest == 0.0 ? 0 : whole; // of -0 and 0 the last one stays
+    for (int32_t v = rest; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
+    return farthest;
+}
+
 double fe__hull_set_plane(const fe__hull *h, int32_t face, fe_vec3 normal)
 {
-    double farthest = along(h, normal, 0), flatness = 0.0;
-    for (int32_t v = 1; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
+    double farthest = farthest_along(h, normal), flatness = 0.0;
     float distance = fe__float_above(farthest);
     fe__hull_set_lane(&h->normals, face, normal);
     fe__hull_writable(h->distances)[face] = distance;

@@ -21,19 +21,18 @@ enum {
 // Edge 3 t + k of triangle t runs from corner k to corner k + 1; its twin is the same edge of the neighbour, reversed.
 typedef struct fe__surface_triangle {
     fe__grid_plane plane;
-    double farthest_height; // of `farthest`, steps of the grid
-    int32_t farthest;       // of the points that wait here; -1: none does
-    int32_t first_point;    // of those, -1
-    int32_t corner[3];      // vertices
+    int32_t farthest;    // of the points that wait here; -1: none does
+    int32_t first_point; // of those, -1
+    int32_t corner[3];   // vertices
     int32_t twin[3];
     int32_t alive, seen; // seen: by the point that is being added
 } fe__surface_triangle;
 
-// A triangle's plane: height = unit . p - offset
-typedef struct fe__surface_face {
-    fe_dvec3 unit;
-    double offset;
-} fe__surface_face;
+// Planes of triangles, to look at two side by side: height = unit . p - offset
+typedef struct fe__surface_planes {
+    _Alignas(16) double x[FE__SURFACE_TRIANGLES], y[FE__SURFACE_TRIANGLES], z[FE__SURFACE_TRIANGLES];
+    double offset[FE__SURFACE_TRIANGLES];
+} fe__surface_planes;
 
 typedef struct fe__hull_surface {
     const fe__cloud *cloud;
@@ -48,10 +47,11 @@ typedef struct fe__hull_surface {
     int32_t point[FE__SURFACE_VERTICES];  // of a vertex; -1: not in use
     int32_t degree[FE__SURFACE_VERTICES]; // triangles around it
     fe__surface_triangle triangles[FE__SURFACE_TRIANGLES];
+    double height[FE__SURFACE_TRIANGLES]; // of the farthest point that waits, steps of the grid; 0: none does
     // scratch of one addition
     int32_t seen[FE__SURFACE_TRIANGLES], seen_count;
     int32_t fan[FE__SURFACE_VERTICES], fan_count;
-    fe__surface_face faces[FE__SURFACE_TRIANGLES]; // to look at many, close together
+    fe__surface_planes planes;              // of those among which points choose
     int32_t fan_from[FE__SURFACE_VERTICES]; // the fan's triangle over the edge of the rim that starts at a vertex
 } fe__hull_surface;
 

@@ -57,7 +57,7 @@ typedef struct fe__mesh_builder {
 
 int64_t fe__mesh_room_size(const fe__mesh_source *source);
 int64_t fe__mesh_scratch_size(const fe__mesh_source *source);
-// Both zeroed and aligned to 64. 0: refused, see `refusal`.
+// Both aligned to 64, the room zeroed. 0: refused, see `refusal`.
 int32_t fe__mesh_build(fe__mesh_builder *room, void *scratch, const fe__mesh_source *source);
 // Then, without scratch: the size of the block.
 int64_t fe__mesh_block_size(fe__mesh_builder *builder);

@@ -149,24 +149,35 @@ static void sort_many(const workroom *w, uint32_t *half, uint32_t count)
     }
 }
 
-// They come in the order of their numbers: the sort is stable. Of two with the same vertices the forward one is first
-static void sort_few(const workroom *w, uint32_t *half, uint32_t count)
+// What half-edges of a bucket are sorted by. Of two with the same vertices the forward one is first
+typedef struct keyed {
+    uint64_t key; // other << 32 | third
+    uint32_t half, is_backward;
+} keyed;
+enum { KEY_BITS = 32 };
+
+static inline keyed key_of(const workroom *w, uint32_t half)
 {
-    struct {
-        uint64_t key;
-        uint32_t half, is_backward;
-    } sorted[FEW];
+    half_edge h = read_half(w, half);
+    return (keyed){(uint64_t)h.other << KEY_BITS | h.third, half, !h.is_forward};
+}
+static inline uint32_t other_of(const keyed *k) { return (uint32_t)(k->key >> KEY_BITS); }
+static inline uint32_t third_of(const keyed *k) { return (uint32_t)k->key; }
+
+static inline int32_t comes_after(const keyed *a, const keyed *b)
+{
+    return a->key > b->key || (a->key == b->key && a->is_backward > b->is_backward);
+}
+
+// They come in the order of their numbers: the sort is stable.
+static void sort_few(const workroom *w, const uint32_t *half, uint32_t count, keyed *sorted)
+{
     for (uint32_t i = 0; i < count; ++i) {
-        half_edge h = read_half(w, half[i]);
-        uint64_t key = (uint64_t)h.other << 32 | h.third;
-        uint32_t place = i, is_backward = !h.is_forward;
-        for (; place > 0 && (sorted[place - 1].key > key ||
-                             (sorted[place - 1].key == key && sorted[place - 1].is_backward > is_backward));
-             --place)
-            sorted[place] = sorted[place - 1];
-        sorted[place].key = key, sorted[place].half = half[i], sorted[place].is_backward = is_backward;
+        keyed own = key_of(w, half[i]);
+        uint32_t place = i;
+        for (; place > 0 && comes_after(sorted + place - 1, &own); --place) sorted[place] = sorted[place - 1];
+        sorted[place] = own;
     }
-    for (uint32_t i = 0; i < count; ++i) half[i] = sorted[i].half;
 }
 
 // ---- edges ---------------------------------------------------------------------------------------------------------
@@ -177,69 +188,91 @@ static void mark(workroom *w, uint32_t half, fe__mesh_edge edge)
     *edges = (uint8_t)(*edges + (uint32_t)edge * digit[half & HALF_MASK]);
 }
 
-static fe__mesh_edge bend(const workroom *w, uint32_t a, uint32_t b)
+// cosine < least, of two normals. Squares decide where rounding does not, without a root and a quotient
+static int32_t turns_more(fe_dvec3 n, fe_dvec3 m, double least)
 {
-    half_edge x = read_half(w, a), y = read_half(w, b);
-    if (x.third == y.third) return FE__MESH_EDGE_CONVEX; // back to back
-    fe_dvec3 v[3], u[3], third = fe__widen(fe__mesh_source_vertex(w->builder->source, y.third));
-    read_triangle(w, a >> HALF_BITS, v);
-    fe_dvec3 n = normal_of(v);
-    if (!(fe__ddot(n, fe__dsub(third, v[a & HALF_MASK])) < 0.0)) return FE__MESH_EDGE_SMOOTH;
-    read_triangle(w, b >> HALF_BITS, u);
-    fe_dvec3 m = normal_of(u);
-    double cosine = fe__ddot(n, m) / sqrt(fe__ddot(n, n) * fe__ddot(m, m));
-    return cosine < w->least_cosine ? FE__MESH_EDGE_CONVEX : FE__MESH_EDGE_BENT;
+    const double rounding = 1e-12, least_square = 1e-200;
+    double product = fe__ddot(n, m), square = fe__ddot(n, n) * fe__ddot(m, m);
+    if (product > 0.0 && least > 0.0 && square > least_square) {
+        double own = product * product, limit = least * least * square;
+        if (own > limit + rounding * limit) return 0;
+        if (own < limit - rounding * limit) return 1;
+    }
+    return product / sqrt(square) < least;
 }
 
-// Half-edges of one edge: those of duplicates are taken out
-static uint32_t drop_duplicates(workroom *w, uint32_t *half, uint32_t count)
+// Of two triangles that wind alike: the second has the edge the other way round
+static fe__mesh_edge bend(const workroom *w, const keyed *a, const keyed *b)
+{
+    if (third_of(a) == third_of(b)) return FE__MESH_EDGE_CONVEX; // back to back
+    uint32_t from = a->half & HALF_MASK, to = next_corner[from], start = b->half & HALF_MASK;
+    fe_dvec3 v[3], u[3], third = fe__widen(fe__mesh_source_vertex(w->builder->source, third_of(b)));
+    read_triangle(w, a->half >> HALF_BITS, v);
+    fe_dvec3 n = normal_of(v);
+    if (!(fe__ddot(n, fe__dsub(third, v[from])) < 0.0)) return FE__MESH_EDGE_SMOOTH;
+    u[start] = v[to], u[next_corner[start]] = v[from], u[last_corner[start]] = third;
+    return turns_more(n, normal_of(u), w->least_cosine) ? FE__MESH_EDGE_CONVEX : FE__MESH_EDGE_BENT;
+}
+
+// Half-edges of one edge as they are met: duplicates are left out. The first two are known by their keys as well
+typedef struct edge {
+    uint32_t *half;
+    uint32_t count;
+    keyed first, second, last;
+} edge;
+
+static void add_half(workroom *w, edge *e, const keyed *k)
 {
     fe__mesh_builder *b = w->builder;
-    uint32_t kept = 1;
-    for (uint32_t i = 1; i < count; ++i) {
-        half_edge x = read_half(w, half[kept - 1]), y = read_half(w, half[i]);
-        if (x.third != y.third || x.is_forward != y.is_forward) {
-            half[kept++] = half[i];
-            continue;
-        }
-        uint8_t *edges = b->edges + (half[i] >> HALF_BITS);
-        if (*edges == FE__MESH_DROPPED) continue; // by another edge
-        *edges = FE__MESH_DROPPED;
-        b->mesh.duplicate_count += 1;
-        refuse(b, (int32_t)(half[i] >> HALF_BITS), 1);
+    if (e->count == 0 || third_of(&e->last) != third_of(k) || e->last.is_backward != k->is_backward) {
+        if (e->count == 0) e->first = *k;
+        if (e->count == 1) e->second = *k;
+        e->last = *k;
+        e->half[e->count++] = k->half;
+        return;
     }
-    return kept;
+    uint8_t *edges = b->edges + (k->half >> HALF_BITS);
+    if (*edges == FE__MESH_DROPPED) return; // by another edge
+    *edges = FE__MESH_DROPPED;
+    b->mesh.duplicate_count += 1;
+    refuse(b, (int32_t)(k->half >> HALF_BITS), 1);
 }
 
-static void judge_edge(workroom *w, uint32_t *half, uint32_t count)
+static void judge_edge(workroom *w, const edge *e)
 {
     fe__mesh *m = &w->builder->mesh;
-    count = drop_duplicates(w, half, count);
-    fe__mesh_edge edge = FE__MESH_EDGE_ODD;
-    if (count == 1) {
+    fe__mesh_edge kind = FE__MESH_EDGE_ODD;
+    if (e->count == 1) {
         m->open_count += 1;
-        edge = FE__MESH_EDGE_OPEN;
-    } else if (count > 2) {
+        kind = FE__MESH_EDGE_OPEN;
+    } else if (e->count > 2) {
         m->odd_count += 1;
-    } else if (read_half(w, half[0]).is_forward == read_half(w, half[1]).is_forward) {
+    } else if (e->first.is_backward == e->second.is_backward) {
         m->flipped_count += 1;
     } else {
-        edge = bend(w, half[0], half[1]);
+        kind = bend(w, &e->first, &e->second);
     }
-    for (uint32_t i = 0; i < count; ++i) mark(w, half[i], edge);
+    for (uint32_t i = 0; i < e->count; ++i) mark(w, e->half[i], kind);
 }
 
 static void judge_bucket(workroom *w, uint32_t *half, uint32_t count)
 {
-    if (count > FEW)
-        sort_many(w, half, count);
+    keyed few[FEW];
+    int32_t is_few = count <= FEW;
+    if (is_few)
+        sort_few(w, half, count, few);
     else
-        sort_few(w, half, count);
-    for (uint32_t i = 0, end; i < count; i = end) {
-        uint32_t other = read_half(w, half[i]).other;
-        for (end = i + 1; end < count && read_half(w, half[end]).other == other;) ++end;
-        judge_edge(w, half + i, end - i);
+        sort_many(w, half, count);
+    edge e = {.half = half};
+    for (uint32_t i = 0; i < count; ++i) {
+        keyed k = is_few ? few[i] : key_of(w, half[i]);
+        if (e.count > 0 && other_of(&e.last) != other_of(&k)) {
+            judge_edge(w, &e);
+            e.half += e.count, e.count = 0; // what is kept of the next stands no farther than it did
+        }
+        add_half(w, &e, &k);
     }
+    if (e.count > 0) judge_edge(w, &e);
 }
 
 void fe__mesh_find_edges(fe__mesh_builder *b)

@@ -106,43 +106,47 @@ static int32_t read_vertices(const fe__mesh_builder *b, int32_t leaf, uint32_t v
     return count;
 }
 
-// Of these vertices, those that are new to the group
-static uint32_t count_new(const grouping *g, const uint32_t *vertex, int32_t vertex_count)
+// Vertices that are new to the group come behind those it has. 0: they are too many. What was placed then is of no
+// group that goes on
+static int32_t place_vertices(grouping *g, const uint32_t *vertex, int32_t vertex_count)
 {
-    uint32_t seen[CORNERS], count = 0;
+    uint32_t *places = g->builder->place;
     for (int32_t k = 0; k < vertex_count; ++k) {
-        uint32_t i = 0;
-        if (g->builder->place[vertex[k]] >> PLACE_BITS == g->group) continue;
-        while (i < count && seen[i] != vertex[k]) ++i;
-        if (i == count) seen[count++] = vertex[k];
+        if (places[vertex[k]] >> PLACE_BITS == g->group) continue;
+        if (g->count == FE__MESH_GROUP) return 0;
+        places[vertex[k]] = g->group << PLACE_BITS | g->count++;
     }
-    return count;
+    return 1;
+}
+
+// The group had `known` vertices before.
+static void write_leaf(const grouping *g, const uint32_t *vertex, int32_t vertex_count, uint32_t known, float *vertices,
+                       fe__mesh_leaf *out)
+{
+    const fe__mesh_builder *b = g->builder;
+    out->first_vertex = g->first;
+    for (int32_t k = 0; k < vertex_count; ++k) {
+        uint32_t at = b->place[vertex[k]] & (FE__MESH_GROUP - 1);
+        out->corner[k / 3][k % 3] = (uint8_t)at;
+        if (at < known) continue;
+        fe_vec3 v = fe__mesh_source_vertex(b->source, vertex[k]);
+        memcpy(vertices + 3 * ((size_t)g->first + at), &v, sizeof v);
+    }
 }
 
 // Groups fit in what PLACE_BITS leave: each but the last has more than FE__MESH_GROUP - 12 vertices, of 3 x 2^27 at
 // most
 static void add_leaf(grouping *g, int32_t leaf, float *vertices, fe__mesh_leaf *out)
 {
-    fe__mesh_builder *b = g->builder;
-    uint32_t vertex[CORNERS];
-    int32_t corners = read_vertices(b, leaf, vertex);
-    if (g->count + count_new(g, vertex, corners) > FE__MESH_GROUP) {
-        g->first += g->count;
+    uint32_t vertex[CORNERS], known = g->count;
+    int32_t corners = read_vertices(g->builder, leaf, vertex);
+    if (!place_vertices(g, vertex, corners)) {
+        g->first += known;
         g->group += 1;
-        g->count = 0;
+        g->count = known = 0;
+        (void)place_vertices(g, vertex, corners); // of a leaf all fit
     }
-    if (out) out->first_vertex = g->first;
-    for (int32_t k = 0; k < corners; ++k) {
-        uint32_t *place = b->place + vertex[k];
-        if (*place >> PLACE_BITS != g->group) {
-            if (vertices) {
-                fe_vec3 v = fe__mesh_source_vertex(b->source, vertex[k]);
-                memcpy(vertices + 3 * ((size_t)g->first + g->count), &v, sizeof v);
-            }
-            *place = g->group << PLACE_BITS | g->count++;
-        }
-        if (out) out->corner[k / 3][k % 3] = (uint8_t)(*place & (FE__MESH_GROUP - 1));
-    }
+    if (out) write_leaf(g, vertex, corners, known, vertices, out);
 }
 
 static int32_t make_groups(fe__mesh_builder *b, float *vertices, fe__mesh_leaf *leaves)
