@@ -70,6 +70,8 @@ double fe__sure_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *g
 double fe__separation_of(const fe__approach *a, fe_dvec3 position, fe_dvec3 n);
 // `start`: the gap at the start
 int32_t fe__curved_sweep(const fe__approach *a, const fe__core_gap *start, double limit, fe__approach_hit *hit);
+// They are apart until t = `from`, and there. -1: they are too near there to tell
+int32_t fe__curved_sweep_from(const fe__approach *a, double from, double limit, fe__approach_hit *hit);
 
 // Where `t` of the way leads
 static inline fe_dvec3 fe__approach_at(const fe__approach *a, double t)

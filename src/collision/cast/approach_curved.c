@@ -24,11 +24,16 @@ static fe__cores cores_at(const fe__approach *s, fe_dvec3 position)
                        s->frame_kind == FE_CORE_TRIANGLE ? s->vertex : NULL};
 }
 
+static fe__core_gap gap_found(const fe__gjk *g)
+{
+    return (fe__core_gap){g->distance, g->on_a, g->way, g->size, g->apart_by};
+}
+
 static void gap_of(const fe__cores *cores, fe__core_gap *gap)
 {
     fe__gjk gjk;
     fe__gjk_distance_closely(cores, &gjk);
-    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way, gjk.size, gjk.apart_by};
+    *gap = gap_found(&gjk);
 }
 
 void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
@@ -119,32 +124,56 @@ typedef struct sure_gap {
     double sure; // of its distance
 } sure_gap;
 
-static sure_gap sure_gap_at(const fe__approach *s, double t)
+// A sweep's looks at the two, one after the other. Forms with corners alone, a hull among them, are looked at from what
+// was nearest before: mostly it still is. A rim's supports come so near to each other that the last ones say little.
+typedef struct looks {
+    const fe__approach *pair;
+    int32_t follows, is_known;
+    fe_dvec3 position; // of the last look
+    fe__gjk gjk;
+} looks;
+
+static looks looks_of(const fe__approach *s)
 {
-    sure_gap here;
-    here.sure = fe__sure_gap_of(s, fe__approach_at(s, t), &here.gap);
+    int32_t has_rim =
+        (s->frame_kind != FE_CORE_TRIANGLE && fe__form_is_curved(s->frame_form)) || fe__form_is_curved(s->other_form);
+    return (looks){.pair = s, .follows = !has_rim};
+}
+
+static sure_gap look_at(looks *l, double t)
+{
+    fe_dvec3 position = fe__approach_at(l->pair, t);
+    fe__cores cores = cores_at(l->pair, position);
+    if (l->is_known)
+        fe__gjk_distance_closely_after(&cores, fe__dsub(position, l->position), &l->gjk);
+    else
+        fe__gjk_distance_closely(&cores, &l->gjk);
+    l->is_known = l->follows, l->position = position;
+    sure_gap here = {.gap = gap_found(&l->gjk)};
+    here.sure = here.gap.distance > 0.0 ? make_sure(l->pair, &cores, &here.gap) : 0.0;
     return here;
 }
 
 // What GJK found at the start is what it would find again, where position + 0 translation has the position's bits.
-static sure_gap sure_gap_at_start(const fe__approach *s, const fe__core_gap *known)
+static sure_gap look_at_start(looks *l, const fe__core_gap *known)
 {
-    fe_dvec3 start = fe__approach_at(s, 0.0);
-    if (memcmp(&start, &s->position, sizeof start) != 0) return sure_gap_at(s, 0.0);
-    fe__cores cores = cores_at(s, start);
+    fe_dvec3 start = fe__approach_at(l->pair, 0.0);
+    if (memcmp(&start, &l->pair->position, sizeof start) != 0) return look_at(l, 0.0);
+    fe__cores cores = cores_at(l->pair, start);
     sure_gap here = {.gap = *known};
-    here.sure = make_sure(s, &cores, &here.gap);
+    here.sure = make_sure(l->pair, &cores, &here.gap);
     return here;
 }
 
 // From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. A distance that GJK finds too
 // long takes a step too far: then the way from where they were apart is halved. `at` is the gap at t, before and after.
-static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, sure_gap *at)
+static int32_t advance(looks *l, double goal, double tolerance, double *t, sure_gap *at)
 {
+    const fe__approach *s = l->pair;
     double apart = *t, inside = (double)INFINITY;
     sure_gap here = *at;
     for (int32_t i = 0;; ++i) {
-        if (i > 0) here = sure_gap_at(s, *t);
+        if (i > 0) here = look_at(l, *t);
         if (i == 0 && !(here.gap.distance > 0.0)) return 1;
         if (i > 0 && !(here.gap.distance > s->radius)) {
             inside = *t;
@@ -166,12 +195,26 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
     }
 }
 
+static int32_t sweep_on(looks *l, double t, sure_gap *at, double limit, fe__approach_hit *hit)
+{
+    const fe__approach *s = l->pair;
+    if (!advance(l, s->radius + s->gap, TOLERANCE * s->gap, &t, at) || !(t <= limit)) return 0;
+    double distance = at->gap.distance, clearance = fe__mind(distance - s->radius, s->gap);
+    *hit = (fe__approach_hit){t, fe__dscale(1.0 / distance, at->gap.away), at->gap.on_frame};
+    return advance(l, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, at);
+}
+
 int32_t fe__curved_sweep(const fe__approach *s, const fe__core_gap *start, double limit, fe__approach_hit *hit)
 {
-    double t = 0.0;
-    sure_gap at = sure_gap_at_start(s, start);
-    if (!advance(s, s->radius + s->gap, TOLERANCE * s->gap, &t, &at) || !(t <= limit)) return 0;
-    double distance = at.gap.distance, clearance = fe__mind(distance - s->radius, s->gap);
-    *hit = (fe__approach_hit){t, fe__dscale(1.0 / distance, at.gap.away), at.gap.on_frame};
-    return advance(s, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, &at);
+    looks l = looks_of(s);
+    sure_gap at = look_at_start(&l, start);
+    return sweep_on(&l, 0.0, &at, limit, hit);
+}
+
+int32_t fe__curved_sweep_from(const fe__approach *s, double from, double limit, fe__approach_hit *hit)
+{
+    looks l = looks_of(s);
+    sure_gap at = look_at(&l, from);
+    if (!(at.sure > s->radius + s->gap)) return -1;
+    return sweep_on(&l, from, &at, limit, hit);
 }

@@ -222,7 +222,7 @@ static fe_dvec3 box_of_core(const fe__form *form)
 }
 
 // Of a hull, without asking for any distance
-static int32_t passes_hull(const fe__form *still, const fe__mover *mover, double limit)
+static int32_t passes_hull(const fe__form *still, const fe__mover *mover, double limit, double *out_from)
 {
     const double per_scale = 1.0 / (double)still->scale,
                  clear = (double)mover->form->radius + 2.0 * fe__stop_gap(mover);
@@ -232,24 +232,29 @@ static int32_t passes_hull(const fe__form *still, const fe__mover *mover, double
                          {fe__dscale(per_scale * half.x, mover->axes.x), fe__dscale(per_scale * half.y, mover->axes.y),
                           fe__dscale(per_scale * half.z, mover->axes.z)},
                          per_scale * clear};
-    return fe__hull_is_passed(still->hull, &p, limit);
+    return fe__hull_is_passed(still->hull, &p, limit, out_from);
 }
 
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
     if (fe__form_is_unbounded(still)) return sweep_plane(still, mover, limit, hit);
-    if (fe__form_is_hull(still) && passes_hull(still, mover, limit)) return 0;
+    double from = 0.0;
+    if (fe__form_is_hull(still) && passes_hull(still, mover, limit, &from)) return 0;
     fe__approach s;
-    int32_t swapped = set_up(still, mover, &s);
-    fe__core_overlap o = fe__approach_overlap(&s);
+    fe__approach_hit h;
+    int32_t swapped = set_up(still, mover, &s), met = from > 0.0 ? fe__curved_sweep_from(&s, from, limit, &h) : -1;
     *hit = (fe__sweep_hit){.triangle = -1};
+    if (met >= 0) {
+        if (met) report(still, mover, swapped, &h, hit);
+        return met;
+    }
+    fe__core_overlap o = fe__approach_overlap(&s);
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
         *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1, .triangle = -1};
         if (fe__form_is_hull(still)) hit->triangle = fe__hull_facing(still->hull, out);
         return 1;
     }
-    fe__approach_hit h;
     if (!fe__approach_sweep(&s, &o, limit, &h)) return 0;
     report(still, mover, swapped, &h, hit);
     return 1;

@@ -233,7 +233,7 @@ static void approach_origin(const fe__cores *cores, double limit, double share, 
     double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
     double weight[4];
     int32_t curved = (!cores->corners && fe__form_is_curved(cores->a)) || fe__form_is_curved(cores->b);
-    g->overlap = 0, g->size = 0.0;
+    g->overlap = 0;
     for (int32_t i = 0; i < g->count; ++i)
         g->size = fe__maxd(g->size, sqrt(fe__ddot(g->vertex[i].difference, g->vertex[i].difference)));
     g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
@@ -285,10 +285,12 @@ static void begin(const fe__cores *cores, fe__gjk *g)
 {
     g->vertex[0] = fe__cores_support(cores, cores->position);
     g->count = 1;
+    g->size = 0.0;
 }
 
 void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *g)
 {
+    g->size = 0.0;
     approach_origin(cores, limit, 0.0, 0, g);
 }
 
@@ -307,5 +309,26 @@ void fe__gjk_distance_or_gap(const fe__cores *cores, double limit, fe__gjk *g)
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g)
 {
     begin(cores, g);
+    approach_origin(cores, (double)INFINITY, 0.0, 1, g);
+}
+
+// Its height is a thousandth of its longest side, at least
+static int32_t is_sliver(const fe__vertex *v)
+{
+    const double least = 1e-3;
+    fe_dvec3 ab = fe__dsub(v[1].difference, v[0].difference), ac = fe__dsub(v[2].difference, v[0].difference),
+             n = fe__dcross(ab, ac);
+    double longest = fe__maxd(fe__ddot(ab, ab), fe__ddot(ac, ac));
+    return !(fe__ddot(n, n) > least * least * longest * longest);
+}
+
+// Lengths were met from there, and are what distances are precise against here as well.
+void fe__gjk_distance_closely_after(const fe__cores *cores, fe_dvec3 shift, fe__gjk *g)
+{
+    if (g->overlap || g->count > 3 || (g->count == 3 && is_sliver(g->vertex))) {
+        fe__gjk_distance_closely(cores, g);
+        return;
+    }
+    for (int32_t i = 0; i < g->count; ++i) g->vertex[i].difference = fe__dsub(g->vertex[i].difference, shift);
     approach_origin(cores, (double)INFINITY, 0.0, 1, g);
 }

@@ -50,5 +50,7 @@ void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *result
 // Cores overlap from 1e-10 of their size on, where a normal is known to the last digit of a float. This one tells 2e-14
 // of it, 1e-8 m of two forms of 100 km, with a normal of fewer digits: for sweeps, which stop 1e-7 m apart.
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *result);
+// The same from what it found when the second stood elsewhere, `shift` m back. Of forms with corners alone.
+void fe__gjk_distance_closely_after(const fe__cores *cores, fe_dvec3 shift, fe__gjk *result);
 
 #endif

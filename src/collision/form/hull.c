@@ -164,10 +164,11 @@ static const double share = 0x1p-19;    // of the lengths, which is taken
 static const double too_far = 1e25;     // m: floats hold products of less and of unit vectors
 static const float least_rate = 1e-30f; // what is no faster is still
 
-int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, double limit)
+int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, double limit, double *out_from)
 {
     double arms = size(p->half[0]) + size(p->half[1]) + size(p->half[2]), radius = p->radius;
     radius += share * (size(p->origin) + size(p->translation) + arms + radius + (double)hull->extent);
+    *out_from = 0.0;
     if (!(radius < share * too_far)) return 0;
     const floats3 origin = spread(p->origin), way = spread(p->translation), a = spread(p->half[0]),
                   b = spread(p->half[1]), c = spread(p->half[2]);
@@ -183,7 +184,9 @@ int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, doubl
         enter = fe__quad_max(fe__quad_choose(comes, t, none), enter);
         stay = fe__quad_max(fe__quad_choose(comes, stay, t), stay);
     }
-    return largest(enter) > -largest(stay);
+    float from = largest(enter);
+    *out_from = (double)from;
+    return from > -largest(stay);
 }
 
 // ---- rays ----------------------------------------------------------------------------------------------------------

@@ -123,8 +123,9 @@ typedef struct fe__hull_passer {
     fe_dvec3 half[3];             // its axes times its half widths, m
     double radius;
 } fe__hull_passer;
-// 1: it stays outside until t = limit. 0: it may meet the hull. Planes tell, in floats.
-int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *passer, double limit);
+// 1: it stays outside until t = limit. 0: it may meet the hull, but not before t = *out_from, where it is still
+// outside; 0 there: it may be inside already. Planes tell, in floats.
+int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *passer, double limit, double *out_from);
 // As fe__form_ray. hit->triangle is the face.
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit);
 
