@@ -264,7 +264,7 @@ static void check_ray_at_form(const bench *b, const query *q, int32_t met, const
     double bound = bound_of(b, 1e-9);
     real t, start = signed_distance(s, q->from), least = least_on_ray(s, q->from, q->along, &t);
     if (fabsl(start) <= bound) return;
-    if (start < 0 || (met && hit->flags)) {
+    if (start < 0 || (met && hit->flags & FE_HIT_STARTED_INSIDE)) {
         must(start < 0 && met && hit->flags == FE_HIT_STARTED_INSIDE, "a ray starts inside", b, q, (double)start, -1);
         return;
     }
@@ -385,7 +385,7 @@ static double check_sweep(const bench *b, const query *q, int32_t met, const fe_
     const double most = 1e-6;
     moving m = moving_form(q->mover, q->from, q->start.rotation, q->along), still = m;
     still.way = (vec){0, 0, 0};
-    int inside = overlaps(b, &still), starts_inside = met && hit->flags;
+    int inside = overlaps(b, &still), starts_inside = met && hit->flags & FE_HIT_STARTED_INSIDE;
     must(inside == 0 || starts_inside == (inside > 0), "an overlap at the start is told", b, q, inside, -1);
     if (starts_inside || inside >= 0) return 0;
     int32_t parts = b->judge.triangle_count ? b->judge.triangle_count : 1;

@@ -147,13 +147,15 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
     j.start = (fe_transform){along(along(j.pose.position, off, aside), -3 * reach, way), random_rotation(&b->dice)};
     fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
-    int32_t met = fe_world_sweep(b->world, &mover.geometry, &j.start, &far, NULL, &hit) == 1 && !hit.flags;
+    int32_t met = fe_world_sweep(b->world, &mover.geometry, &j.start, &far, NULL, &hit) == 1 &&
+                  !(hit.flags & FE_HIT_STARTED_INSIDE);
     if (met) {
         double length = spread(&b->dice, 1e-3, 1e4);
         j.start.position =
             along(along(j.start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
         fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
-        met = fe_world_sweep(b->world, &mover.geometry, &j.start, &translation, NULL, &hit) == 1 && !hit.flags;
+        met = fe_world_sweep(b->world, &mover.geometry, &j.start, &translation, NULL, &hit) == 1 &&
+              !(hit.flags & FE_HIT_STARTED_INSIDE);
         if (met) count(&j, &hit, translation, t);
     }
     if (is_mesh) OK(fe_asset_destroy(b->store, mesh.asset));

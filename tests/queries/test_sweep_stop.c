@@ -69,12 +69,13 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
         along(along(pose.position, uniform(&b->dice, 0, 0.7) * reach, direction(&b->dice)), -3 * reach, way);
     far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
-    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags) return;
+    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags & FE_HIT_STARTED_INSIDE) return;
     double length = spread(&b->dice, 1e-3, 1e4);
     start.position =
         along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
     fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
-    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags) return;
+    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags & FE_HIT_STARTED_INSIDE)
+        return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     vec shift = v_scale(hit.fraction, v_of(translation));
     nearness n = nearest(&of_mover, shift, &of_still);
@@ -137,12 +138,13 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     start.position = along(goal, -3 * reach, way);
     fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
-    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags) return;
+    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags & FE_HIT_STARTED_INSIDE) return;
     double length = spread(&b->dice, 1e-3, 1e4);
     start.position =
         along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
     fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
-    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags) return;
+    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags & FE_HIT_STARTED_INSIDE)
+        return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     vec shift = v_scale(hit.fraction, v_of(translation));
     nearness n = nearest_triangle(&of_mover, shift, triangles),

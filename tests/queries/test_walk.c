@@ -337,7 +337,8 @@ static int32_t check_nearest(const known_world *k, const query *q)
     if (result == 1) check_hit(k, q, &hit);
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
-        if (!counts(k, q, s) || (result == 1 && ((s->shape == hit.shape && s->triangle == hit.triangle) || hit.flags)))
+        if (!counts(k, q, s) || (result == 1 && ((s->shape == hit.shape && s->triangle == hit.triangle) ||
+                                                 hit.flags & FE_HIT_STARTED_INSIDE)))
             continue;
         if (meets(q, s, end) > 0) {
             print_error("shape %d is met before fraction %.17Lg (result %d, shape %d)\n", i, end, result,
@@ -368,7 +369,8 @@ static int32_t check_all(const known_world *k, const query *q)
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
         const fe_hit *hit = told[s->body] >= 0 ? &hits[told[s->body]] : NULL;
-        if (!counts(k, q, s) || (hit && ((hit->shape == s->shape && hit->triangle == s->triangle) || hit->flags)))
+        if (!counts(k, q, s) ||
+            (hit && ((hit->shape == s->shape && hit->triangle == s->triangle) || hit->flags & FE_HIT_STARTED_INSIDE)))
             continue;
         FE_TRUE(meets(q, s, hit ? hit->fraction : 1) <= 0);
     }
