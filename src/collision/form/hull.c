@@ -11,45 +11,46 @@
 enum { MOST_LANES = (FE__HULL_FACES + FE__HULL_LANES - 1) / FE__HULL_LANES * FE__HULL_LANES };
 static const float rounding = 6.0f * 0x1p-24f, underflow = 1e-30f;
 
-// n . x of each lane, in floats, and the greatest of them
-static inline float look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
+// n . x of each lane, in floats, the greatest of them and the least
+typedef struct reach {
+    float most, least;
+} reach;
+static inline reach look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
 {
     const fe__quad *px = (const fe__quad *)lanes->x, *py = (const fe__quad *)lanes->y, *pz = (const fe__quad *)lanes->z;
     const fe__quad x = fe__quad_set(n.x), y = fe__quad_set(n.y), z = fe__quad_set(n.z);
-    fe__quad most = fe__quad_set(-FLT_MAX);
+    fe__quad most = fe__quad_set(-FLT_MAX), least = fe__quad_set(FLT_MAX);
     for (int32_t i = 0; i < count; i += 4) {
         fe__quad along = x * *px++ + y * *py++ + z * *pz++;
         *(fe__quad *)(out_along + i) = along;
-        most = fe__quad_max(along, most);
+        most = fe__quad_max(along, most), least = fe__quad_min(along, least);
     }
     most = fe__quad_max(most, __builtin_shufflevector(most, most, 2, 3, 0, 1));
-    return fe__maxf(most[0], most[1]);
+    least = fe__quad_min(least, __builtin_shufflevector(least, least, 2, 3, 0, 1));
+    return (reach){fe__maxf(most[0], most[1]), fe__minf(least[0], least[1])};
 }
 
-// Bit i: lane first + i is not below `least`. What is no number is not
+// Bit i: lane first + i, times `sign`, is not below `least`. What is no number is not
 enum { WORD = 64 };
-static inline uint64_t lanes_from(const float *along, int32_t first, int32_t count, float least)
+static inline uint64_t lanes_from(const float *along, int32_t first, int32_t count, float sign, float least)
 {
-    const fe__quad low = fe__quad_set(least);
+    const fe__quad low = fe__quad_set(least), factor = fe__quad_set(sign);
     int32_t end = fe__mini(count - first, WORD);
     uint64_t left = 0;
     for (int32_t i = 0; i < end; i += 4)
-        left |= (uint64_t)(0xfu & ~fe__quad_signs(*(const fe__quad *)(along + first + i) < low)) << i;
+        left |= (uint64_t)(0xfu & ~fe__quad_signs(factor * *(const fe__quad *)(along + first + i) < low)) << i;
     return left;
 }
 
-// No coordinate of a lane is larger than that of `most`. Mostly one lane is left, at a place that nothing predicts: no
-// branch depends on where.
-static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_vec3 most, fe_dvec3 direction)
+// Of the lanes not below `least` the farthest along the direction. Mostly one lane is left, at a place that nothing
+// predicts: no branch depends on where.
+static inline int32_t choose_lane(const fe__hull_lanes *lanes, int32_t count, const float *along, float sign,
+                                  float least, fe_dvec3 direction)
 {
-    _Alignas(16) float along[MOST_LANES];
-    fe_vec3 n = fe__narrow(direction);
-    float sum = fe__absf(n.x) * most.x + fe__absf(n.y) * most.y + fe__absf(n.z) * most.z;
-    float least = look_along(lanes, count, n, along) - 2.0f * (rounding * sum + underflow);
     int32_t best = 0;
     double farthest = -(double)INFINITY;
     for (int32_t first = 0; first < count; first += WORD) {
-        uint64_t left = lanes_from(along, first, count, least);
+        uint64_t left = lanes_from(along, first, count, sign, least);
         if (count <= WORD && !(left & (left - 1))) return __builtin_ctzll(left);
         for (; left; left &= left - 1) {
             int32_t lane = first + __builtin_ctzll(left);
@@ -58,6 +59,21 @@ static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_vec3
         }
     }
     return best;
+}
+
+// By how much n . x in floats may be off, twice. No coordinate of a lane is larger than that of `most`
+static inline float doubt_of(fe_vec3 n, fe_vec3 most)
+{
+    float sum = fe__absf(n.x) * most.x + fe__absf(n.y) * most.y + fe__absf(n.z) * most.z;
+    return 2.0f * (rounding * sum + underflow);
+}
+
+static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_vec3 most, fe_dvec3 direction)
+{
+    _Alignas(16) float along[MOST_LANES];
+    fe_vec3 n = fe__narrow(direction);
+    float least = look_along(lanes, count, n, along).most - doubt_of(n, most);
+    return choose_lane(lanes, count, along, 1.0f, least, direction);
 }
 
 static inline fe_vec3 most_of_corners(fe_vec3 a, fe_vec3 b)
@@ -69,6 +85,18 @@ static inline fe_vec3 most_of_corners(fe_vec3 a, fe_vec3 b)
 int32_t fe__hull_support(const fe__hull *hull, fe_dvec3 direction)
 {
     return farthest_lane(&hull->vertices, hull->vertex_count, most_of_corners(hull->low, hull->high), direction);
+}
+
+fe__hull_ends fe__hull_ends_along(const fe__hull *hull, fe_dvec3 direction)
+{
+    _Alignas(16) float along[MOST_LANES];
+    const fe__hull_lanes *v = &hull->vertices;
+    int32_t count = hull->vertex_count;
+    fe_vec3 n = fe__narrow(direction);
+    float doubt = doubt_of(n, most_of_corners(hull->low, hull->high));
+    reach r = look_along(v, count, n, along);
+    return (fe__hull_ends){choose_lane(v, count, along, 1.0f, r.most - doubt, direction),
+                           choose_lane(v, count, along, -1.0f, -r.least - doubt, fe__dscale(-1.0, direction))};
 }
 
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction)
@@ -187,6 +215,19 @@ int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, doubl
     float from = largest(enter);
     *out_from = (double)from;
     return from > -largest(stay);
+}
+
+int32_t fe__hull_is_beside(const fe__hull *hull, const fe_vec3 corner[3], float gap)
+{
+    const floats3 a = spread(fe__widen(corner[0])), b = spread(fe__widen(corner[1])), c = spread(fe__widen(corner[2]));
+    const fe__quad least = fe__quad_set(gap);
+    for (int32_t i = 0; i < hull->face_count; i += 4) {
+        const floats3 n = {*(const fe__quad *)(hull->normals.x + i), *(const fe__quad *)(hull->normals.y + i),
+                           *(const fe__quad *)(hull->normals.z + i)};
+        fe__quad lowest = fe__quad_min(fe__quad_min(dot(&n, &a), dot(&n, &b)), dot(&n, &c));
+        if (fe__quad_signs(lowest - *(const fe__quad *)(hull->distances + i) > least)) return 1;
+    }
+    return 0;
 }
 
 // ---- rays ----------------------------------------------------------------------------------------------------------

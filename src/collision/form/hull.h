@@ -111,9 +111,15 @@ static inline fe_dvec3 fe__hull_unit_normal(const fe__hull *hull, int32_t i)
     return fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
 }
 
+// Vertices: the farthest along a direction, and the farthest against it
+typedef struct fe__hull_ends {
+    int32_t along, against;
+} fe__hull_ends;
+
 // ---- hull.c: in the hull's frame -----------------------------------------------------------------------------------
 int32_t fe__hull_support(const fe__hull *hull,
                          fe_dvec3 direction);                      // the vertex farthest along it; of equals the lowest
+fe__hull_ends fe__hull_ends_along(const fe__hull *hull, fe_dvec3 direction); // both as fe__hull_support
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction); // the face that looks that way most; likewise
 float fe__hull_reach(const fe__hull *hull, fe_vec3 centre);        // largest distance from it to a point of the hull, m
 fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose); // in the world, of a hull whose frame is there
@@ -126,6 +132,8 @@ typedef struct fe__hull_passer {
 // 1: it stays outside until t = limit. 0: it may meet the hull, but not before t = *out_from, where it is still
 // outside; 0 there: it may be inside already. Planes tell, in floats.
 int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *passer, double limit, double *out_from);
+// 1: all three corners lie beyond one of its planes, by more than `gap`, m.
+int32_t fe__hull_is_beside(const fe__hull *hull, const fe_vec3 corner[3], float gap);
 // As fe__form_ray. hit->triangle is the face.
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit);
 

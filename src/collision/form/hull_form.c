@@ -51,9 +51,14 @@ fe__form fe__hull_form_shrunk(const fe__form *form, float by)
     return thin;
 }
 
+fe_dvec3 fe__hull_form_vertex(const fe__form *form, int32_t vertex)
+{
+    return fe__from_hull(form, fe__widen(fe__hull_vertex(form->hull, vertex)));
+}
+
 fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction)
 {
-    return fe__from_hull(form, fe__widen(fe__hull_vertex(form->hull, fe__hull_support(form->hull, direction))));
+    return fe__hull_form_vertex(form, fe__hull_support(form->hull, direction));
 }
 
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out)
@@ -77,9 +82,9 @@ void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__f
 
 // Of the faces around the farthest vertex that which looks most along the direction: so that vertex is among those
 // given
-static int32_t face_there(const fe__hull *hull, fe_dvec3 direction)
+static int32_t face_around(const fe__hull *hull, int32_t vertex, fe_dvec3 direction)
 {
-    int32_t first = hull->spokes[fe__hull_support(hull, direction)], best = hull->edges[first].face;
+    int32_t first = hull->spokes[vertex], best = hull->edges[first].face;
     double most = fe__ddot(direction, fe__widen(fe__hull_normal(hull, best)));
     for (int32_t h = hull->edges[first ^ 1].next; h != first; h = hull->edges[h ^ 1].next) {
         int32_t face = hull->edges[h].face;
@@ -89,9 +94,14 @@ static int32_t face_there(const fe__hull *hull, fe_dvec3 direction)
     return best;
 }
 
-void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
+void fe__hull_form_face_at(const fe__form *form, int32_t vertex, fe_vec3 direction, fe__face *face)
 {
-    fe__hull_polygon(form->hull, face_there(form->hull, fe__widen(direction)), direction, face);
+    fe__hull_polygon(form->hull, face_around(form->hull, vertex, fe__widen(direction)), direction, face);
     for (int32_t i = 0; i < face->count; ++i)
         face->vertex[i] = fe__add_scaled(form->offset, form->scale, face->vertex[i]);
+}
+
+void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
+{
+    fe__hull_form_face_at(form, fe__hull_support(form->hull, fe__widen(direction)), direction, face);
 }

@@ -8,6 +8,10 @@
 fe__form fe__hull_form(const fe__hull *hull, int32_t index);
 fe_vec3 fe__hull_form_centre(const fe__form *form); // of mass, form's frame
 
+fe_dvec3 fe__hull_form_vertex(const fe__form *form, int32_t vertex); // form's frame
+// As fe__form_face, when the vertex is known that lies farthest along the direction
+void fe__hull_form_face_at(const fe__form *form, int32_t vertex, fe_vec3 direction, fe__face *face);
+
 // In the hull's frame. Of a face with more corners than FE_FACE_VERTICES some are left out, never the farthest along
 // `deepest`.
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out);

@@ -29,9 +29,9 @@ static fe__bounds bounds_around_hull(const fe__terrain *t, const fe__form *b, co
                               {(double)r->x.z, (double)r->y.z, (double)r->z.z}};
     double low[3], high[3];
     for (int32_t k = 0; k < 3; ++k) {
-        fe_dvec3 back = fe__dscale(-1.0, axes[k]);
-        low[k] = -fe__ddot(back, fe__form_support(b, back)) - margin;
-        high[k] = fe__ddot(axes[k], fe__form_support(b, axes[k])) + margin;
+        fe__hull_ends ends = fe__hull_ends_along(b->hull, axes[k]);
+        low[k] = fe__ddot(axes[k], fe__hull_form_vertex(b, ends.against)) - margin;
+        high[k] = fe__ddot(axes[k], fe__hull_form_vertex(b, ends.along)) + margin;
     }
     return (fe__bounds){fe__dadd(t->origin, (fe_dvec3){low[0], low[1], low[2]}),
                         fe__dadd(t->origin, (fe_dvec3){high[0], high[1], high[2]})};

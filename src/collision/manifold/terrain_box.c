@@ -93,7 +93,7 @@ static void prefer_face(contest *c)
 static void touch_face(contest *c)
 {
     fe__face face;
-    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), &face);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), -1, &face);
     fe__cut cut = {c->tile->form.vertex, face.vertex,     3,           face.count,
                    c->tile->normal,      c->tile->normal, face.id + 1, c->tie};
     fe__tile_cut_faces(c->g, c->tile, &cut);
@@ -102,7 +102,7 @@ static void touch_face(contest *c)
 static void touch_box_face(contest *c)
 {
     fe__face face;
-    fe__tile_body_face(c->box, c->rotation, fe__neg(c->best.m), &face);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->best.m), -1, &face);
     fe__cut cut = {face.vertex, c->tile->form.vertex, face.count, 3, fe__neg(c->best.m), c->best.m, 0, c->tie};
     fe__tile_cut_faces(c->g, c->tile, &cut);
 }

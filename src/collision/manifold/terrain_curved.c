@@ -6,6 +6,7 @@
 // looked at so.
 #include "collision/form/clip.h"
 #include "collision/form/epa.h"
+#include "collision/form/hull_form.h"
 #include "collision/form/support.h"
 #include "collision/manifold/kernels.h"
 #include "collision/manifold/terrain_kernels.h"
@@ -18,18 +19,57 @@ typedef struct contest {
     float tie;
 } contest;
 
-// The form's point farthest along a direction, as GJK finds it
-static fe_dvec3 farthest(const contest *c, fe_vec3 direction)
+static fe_dvec3 in_common(const contest *c, fe_dvec3 p)
 {
     const fe__mat3 *r = c->rotation;
-    fe_dvec3 p = fe__form_support(c->form, fe__widen(fe__mul_transposed(r, direction)));
     return fe__dadd(fe__dadd(fe__dscale(p.x, fe__widen(r->x)), fe__dscale(p.y, fe__widen(r->y))),
                     fe__dscale(p.z, fe__widen(r->z)));
 }
 
+// The form's point farthest along a direction, as GJK finds it
+static fe_dvec3 farthest(const contest *c, fe_vec3 direction)
+{
+    return in_common(c, fe__form_support(c->form, fe__widen(fe__mul_transposed(c->rotation, direction))));
+}
+
+// A form's lowest point on the triangle
+typedef struct low_point {
+    fe_dvec3 at;
+    int32_t vertex; // of a hull
+    float height;   // m
+} low_point;
+
 static float height_of(const contest *c, fe_dvec3 p)
 {
     return fe__dot(c->tile->normal, fe__sub(fe__narrow(p), c->tile->form.vertex[0]));
+}
+
+static low_point find_lowest(const contest *c)
+{
+    fe_vec3 down = fe__neg(c->tile->normal);
+    low_point low = {.vertex = -1};
+    if (fe__form_is_hull(c->form)) {
+        low.vertex = fe__hull_support(c->form->hull, fe__widen(fe__mul_transposed(c->rotation, down)));
+        low.at = in_common(c, fe__hull_form_vertex(c->form, low.vertex));
+    } else
+        low.at = farthest(c, down);
+    low.height = height_of(c, low.at);
+    return low;
+}
+
+// Does one of a hull's planes part it from the triangle by more than is asked for? Then it has no point of it: what is
+// cut reaches beyond a side by a tenth of a tie, beyond a corner farther, but not by so much.
+static int32_t is_beside_hull(const contest *c)
+{
+    const float beyond = 2.0f, rounding = 1e-5f; // ties; of the triangle's size
+    const fe__form *form = c->form;
+    float per_scale = 1.0f / form->scale, gap = c->g->margin + beyond * c->tie + rounding * c->tile->size;
+    fe_vec3 corner[3];
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 p = fe__mul_transposed(c->rotation, c->tile->form.vertex[k]);
+        corner[k] = fe__scale(per_scale, fe__sub(p, form->offset));
+    }
+    return fe__hull_is_beside(form->hull, corner, per_scale * gap);
 }
 
 // A surface has no inside, see fe__tile_feels: the form's highest point tells how deep all of it is
@@ -56,10 +96,10 @@ static int32_t lies_inside(const contest *c, uint32_t convex, fe_dvec3 p, float 
     return 1;
 }
 
-static void touch_face(const contest *c)
+static void touch_face(const contest *c, int32_t lowest_vertex)
 {
     fe__face face;
-    fe__tile_body_face(c->form, c->rotation, fe__neg(c->tile->normal), &face);
+    fe__tile_body_face(c->form, c->rotation, fe__neg(c->tile->normal), lowest_vertex, &face);
     fe__cut cut = {.reference = c->tile->form.vertex,
                    .incident = face.vertex,
                    .reference_count = 3,
@@ -98,7 +138,7 @@ static void find_distance(const contest *c, const fe__cores *cores, fe_dvec3 low
 }
 
 // 0: apart
-static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
+static int32_t find_nearest(const contest *c, const low_point *low, fe__touch *found)
 {
     fe__cores cores = {.a = &c->tile->form,
                        .b = c->form,
@@ -106,9 +146,11 @@ static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
                        .axis_y = fe__widen(c->rotation->y),
                        .axis_z = fe__widen(c->rotation->z)};
     fe__gjk gjk;
-    find_distance(c, &cores, lowest, &gjk);
+    find_distance(c, &cores, low->at, &gjk);
     if (gjk.distance > (double)c->g->margin) return 0;
-    if (gjk.overlap) {
+    if (gjk.overlap && low->height + c->tie >= 0.0f) { // no direction parts them by a tie more than the face's
+        *found = (fe__touch){.normal = c->tile->normal, .separation = low->height};
+    } else if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
         *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
@@ -123,7 +165,7 @@ static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
 static void touch_side(const contest *c, const fe__touch *found)
 {
     fe__face face;
-    fe__tile_body_face(c->form, c->rotation, fe__neg(found->normal), &face);
+    fe__tile_body_face(c->form, c->rotation, fe__neg(found->normal), -1, &face);
     fe_vec3 out = face.count > 2 ? fe__mul(c->rotation, face.normal) : found->normal;
     if (face.count > 2 && -fe__dot(out, found->normal) > FE_FACE_COS) {
         fe__cut cut = {.reference = face.vertex,
@@ -156,20 +198,19 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
 {
     contest c = {g, tile, form, rotation, fe__tie(fe__form_thickness(form))};
     fe_vec3 n = tile->normal;
-    fe_dvec3 lowest = farthest(&c, fe__neg(n));
-    float low = height_of(&c, lowest);
-    if (low > g->margin || !is_felt(&c)) return;
+    low_point low = find_lowest(&c);
+    if (low.height > g->margin || !is_felt(&c) || (fe__form_is_hull(form) && is_beside_hull(&c))) return;
     uint32_t convex = 0; // a bit for each side
     for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k) ? 1u << k : 0u;
-    if (lies_inside(&c, convex, lowest, low)) {
-        touch_face(&c);
+    if (lies_inside(&c, convex, low.at, low.height)) {
+        touch_face(&c, low.vertex);
         return;
     }
     fe__touch found;
-    if (!find_nearest(&c, lowest, &found)) return;
-    if (found.separation > low + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS && fe__dot(found.normal, n) >= 0.0f &&
-        fe__tile_allows(g->terrain, tile, found.normal))
+    if (!find_nearest(&c, &low, &found)) return;
+    if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
+        fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal))
         touch_side(&c, &found);
     else
-        touch_face(&c);
+        touch_face(&c, low.vertex);
 }

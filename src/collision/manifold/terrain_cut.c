@@ -1,5 +1,6 @@
 // terrain_cut.c - a face of a body and a triangle of a heightfield, one cut by the other.
 #include "collision/form/clip.h"
+#include "collision/form/hull_form.h"
 #include "collision/form/support.h"
 #include "collision/manifold/terrain_kernels.h"
 
@@ -11,9 +12,14 @@ static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const 
     }
 }
 
-void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, fe__face *face)
+void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, int32_t vertex,
+                        fe__face *face)
 {
-    fe__form_face(form, fe__mul_transposed(rotation, direction), face);
+    fe_vec3 local = fe__mul_transposed(rotation, direction);
+    if (vertex >= 0)
+        fe__hull_form_face_at(form, vertex, local, face);
+    else
+        fe__form_face(form, local, face);
     for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__mul(rotation, face->vertex[i]);
 }
 

@@ -21,8 +21,10 @@ typedef struct fe__cut {
     float tie;
 } fe__cut;
 struct fe__face;
-// the body's face that looks along the direction, in the common frame
-void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, struct fe__face *face);
+// The body's face that looks along the direction, in the common frame. `vertex`: of a hull, the farthest along it; -1:
+// not known
+void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, int32_t vertex,
+                        struct fe__face *face);
 void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut);
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);
 
