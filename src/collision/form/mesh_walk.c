@@ -95,32 +95,42 @@ static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
 // ---- triangles -----------------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-static int32_t meet_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
+static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+{
+    fe__quad a = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 0),
+             b = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 1),
+             c = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 2);
+    *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
+    *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
+}
+
+static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
 {
     enum { THREE = 7 }; // the fourth lane is another vertex's, or none
-    const float *const v[3] = {fe__mesh_vertex(w->mesh, slot, 0), fe__mesh_vertex(w->mesh, slot, 1),
-                               fe__mesh_vertex(w->mesh, slot, 2)};
-    fe__quad a = *(const loose_quad *)v[0], b = *(const loose_quad *)v[1], c = *(const loose_quad *)v[2];
-    fe__quad low = fe__quad_min(fe__quad_min(a, b), c), high = fe__quad_max(fe__quad_max(a, b), c);
-    fe__quad_int met = (low <= *(const fe__quad *)w->high) & (high >= *(const fe__quad *)w->low);
-    if ((fe__quad_signs(met) & THREE) != THREE) return 0;
+    fe__quad_int met = (*(const fe__quad *)s->low <= *(const fe__quad *)w->high) &
+                       (*(const fe__quad *)s->high >= *(const fe__quad *)w->low);
+    return (fe__quad_signs(met) & THREE) == THREE;
+}
+
+static void give_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
+{
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     const double *s = w->mesh->scale;
     for (int32_t k = 0; k < 3; ++k) {
-        const float *p = v[fe__mesh_own_corner(w->mesh, k)];
+        const float *p = fe__mesh_vertex(w->mesh, slot, fe__mesh_own_corner(w->mesh, k));
         fe_dvec3 corner = {s[0] * (double)p[0], s[1] * (double)p[1], s[2] * (double)p[2]};
         triangle->vertex[k] = fe__narrow(fe__dsub(corner, w->origin));
     }
-    return 1;
 }
 
-int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+// The next slot whose triangle meets the box, -1: no more
+static int32_t next_in_tree(fe__mesh_walk *w, fe__mesh_span *out)
 {
     for (;;) {
         while (w->slot < w->end) {
-            int32_t slot = w->near ? w->near->slots[w->slot] : w->slot;
-            ++w->slot;
-            if (meet_triangle(w, slot, triangle)) return slot;
+            int32_t slot = w->slot++;
+            set_span(w->mesh, slot, out);
+            if (meets(w, out)) return slot;
         }
         if (!w->top) return -1;
         uint32_t child = w->stack[--w->top];
@@ -133,16 +143,34 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
     }
 }
 
+static int32_t next_of_near(fe__mesh_walk *w)
+{
+    while (w->slot < w->end) {
+        int32_t place = w->slot++;
+        if (meets(w, w->near->spans + place)) return w->near->slots[place];
+    }
+    return -1;
+}
+
+int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+{
+    fe__mesh_span span;
+    int32_t slot = w->near ? next_of_near(w) : next_in_tree(w, &span);
+    if (slot >= 0) give_triangle(w, slot, triangle);
+    return slot;
+}
+
 void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
 {
     fe__mesh_walk walk;
-    fe__form unused;
+    fe__mesh_span span;
     near->box = *box, near->count = 0;
     fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
-    for (int32_t slot; near->count >= 0 && (slot = fe__mesh_walk_next(&walk, &unused)) >= 0;) {
-        if (near->count < FE__MESH_NEAR)
+    for (int32_t slot; near->count >= 0 && (slot = next_in_tree(&walk, &span)) >= 0;) {
+        if (near->count < FE__MESH_NEAR) {
+            near->spans[near->count] = span;
             near->slots[near->count++] = slot;
-        else
+        } else
             near->count = -1;
     }
 }

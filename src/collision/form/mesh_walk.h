@@ -9,11 +9,17 @@ enum { FE__MESH_WALK_STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WI
 
 enum { FE__MESH_NEAR = 64 };
 
+// The bounds of a triangle, unscaled; the fourth numbers mean nothing
+typedef struct fe__mesh_span {
+    _Alignas(16) float low[4], high[4];
+} fe__mesh_span;
+
 // The triangles near a box: who asks for those near boxes inside of it again and again need not go down the tree
 typedef struct fe__mesh_near {
     fe__bounds box; // in the mesh's frame
     int32_t count;  // of triangles; -1: there are more
     int32_t slots[FE__MESH_NEAR];
+    fe__mesh_span spans[FE__MESH_NEAR];
 } fe__mesh_near;
 
 typedef struct fe__mesh_walk {
