@@ -100,9 +100,7 @@ static void follow_body(fe__step *step, int32_t index)
     fe__body_place(w, index);
     for (int32_t i = w->bodies[index].first_shape; i >= 0; i = w->shapes[i].next) {
         if (!(w->shapes[i].flags & FE__SHAPE_IN_TREE)) continue;
-        fe__bounds reach = fe__shape_reach_bounds(w, i);
-        if (!fe__tree_holds(&w->moving_tree, i, &reach))
-            s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
+        if (!fe__shape_is_held(w, i)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
     }
 }
 

@@ -42,12 +42,6 @@ static fe__bounds swept(const fe_world *world, const fe__shape *shape, fe__bound
 
 static float half_gap(const fe_world *world) { return 0.5f * world->tuning.speculative_distance; }
 
-fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
-{
-    const fe__shape *shape = world->shapes + index;
-    return swept(world, shape, bounds_of(shape, half_gap(world)), 1.0f);
-}
-
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
@@ -102,6 +96,19 @@ void fe__shape_enter(fe_world *world, int32_t index)
     fe__shape_mark_moved(world, index);
 }
 
+int32_t fe__shape_is_held(const fe_world *world, int32_t index)
+{
+    const fe__shape *shape = world->shapes + index;
+    const fe__tree *tree =
+        world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+    double margin = (double)half_gap(world);
+    fe__bounds rough = swept(world, shape, grown(fe__form_rough_bounds(&shape->form, &shape->pose), margin), 1.0f);
+    int32_t held = fe__tree_holds(tree, index, &rough);
+    if (held || !fe__form_is_hull(&shape->form)) return held;
+    fe__bounds tight = swept(world, shape, bounds_of(shape, half_gap(world)), 1.0f);
+    return fe__tree_holds(tree, index, &tight);
+}
+
 // FE__SHAPE_MOVED stays: the list still names the slot, and whoever gets it next is in the list already.
 void fe__shape_leave(fe_world *world, int32_t index)
 {
@@ -128,9 +135,8 @@ void fe__shape_touch(fe_world *world, int32_t index)
 void fe__body_stretch_boxes(fe_world *world, int32_t index)
 {
     for (int32_t i = world->bodies[index].first_shape; i >= 0; i = world->shapes[i].next) {
-        fe__bounds reach = fe__shape_reach_bounds(world, i);
         int32_t in_tree = world->shapes[i].flags & FE__SHAPE_IN_TREE;
-        if (in_tree && !fe__tree_holds(tree_of(world, &world->shapes[i]), i, &reach)) fe__shape_touch(world, i);
+        if (in_tree && !fe__shape_is_held(world, i)) fe__shape_touch(world, i);
     }
 }
 

@@ -7,7 +7,8 @@
 #include "world/world.h"
 
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
-fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t shape); // what it may touch in a step
+int32_t fe__shape_is_held(const fe_world *world,
+                          int32_t shape); // by its box in the tree, with what it may reach in a step
 // Does the box of another shape, as a tree holds it, come near the plane? Planes are in no tree, and grow here
 int32_t fe__plane_comes_near(const fe_world *world, int32_t plane, const fe__bounds *box);
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the trees hold them

@@ -170,6 +170,32 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
     };
 }
 
+static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
+
+// A float product of a row of the rotation and a vertex is off by some roundings, 2^-24 of their sum each
+fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose)
+{
+    const float rounding = 0x1p-19f;
+    const fe__quad *px = (const fe__quad *)hull->vertices.x, *py = (const fe__quad *)hull->vertices.y,
+                   *pz = (const fe__quad *)hull->vertices.z;
+    const fe__mat3 r = fe__matrix(pose->rotation);
+    const fe__quad far = fe__quad_set(FLT_MAX);
+    fe__quad low[3] = {far, far, far}, high[3] = {-far, -far, -far};
+    for (int32_t i = 0; i < hull->vertex_count; i += 4, ++px, ++py, ++pz) {
+        const fe__quad along[3] = {r.x.x * *px + r.y.x * *py + r.z.x * *pz, r.x.y * *px + r.y.y * *py + r.z.y * *pz,
+                                   r.x.z * *px + r.y.z * *py + r.z.z * *pz};
+        _Pragma("GCC unroll 3") for (int32_t k = 0; k < 3; ++k) low[k] = fe__quad_min(along[k], low[k]),
+                                                                high[k] = fe__quad_max(along[k], high[k]);
+    }
+    fe_vec3 most = most_of_corners(hull->low, hull->high);
+    double doubt = (double)(rounding * (most.x + most.y + most.z));
+    fe_dvec3 down = {(double)largest(-low[0]) + doubt, (double)largest(-low[1]) + doubt,
+                     (double)largest(-low[2]) + doubt},
+             up = {(double)largest(high[0]) + doubt, (double)largest(high[1]) + doubt,
+                   (double)largest(high[2]) + doubt};
+    return (fe__bounds){fe__dsub(pose->position, down), fe__dadd(pose->position, up)};
+}
+
 // ---- what passes by ------------------------------------------------------------------------------------------------
 // Where the passer's lowest point is over a plane, at t, is  height + t rate.  It is in the hull from the last plane
 // that it comes in through to the first that it goes out through, if at all.
@@ -185,8 +211,6 @@ static floats3 spread(fe_dvec3 a)
 }
 static inline fe__quad dot(const floats3 *a, const floats3 *b) { return a->x * b->x + a->y * b->y + a->z * b->z; }
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
-
-static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
 static const double share = 0x1p-19;    // of the lengths, which is taken
 static const double too_far = 1e25;     // m: floats hold products of less and of unit vectors

@@ -118,11 +118,13 @@ typedef struct fe__hull_ends {
 
 // ---- hull.c: in the hull's frame -----------------------------------------------------------------------------------
 int32_t fe__hull_support(const fe__hull *hull,
-                         fe_dvec3 direction);                      // the vertex farthest along it; of equals the lowest
+                         fe_dvec3 direction); // the vertex farthest along it; of equals the lowest
 fe__hull_ends fe__hull_ends_along(const fe__hull *hull, fe_dvec3 direction); // both as fe__hull_support
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction); // the face that looks that way most; likewise
 float fe__hull_reach(const fe__hull *hull, fe_vec3 centre);        // largest distance from it to a point of the hull, m
 fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose); // in the world, of a hull whose frame is there
+// The same in floats, wider by their roundings: for who asks whether it left another box
+fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose);
 // A box that moves and does not turn, with a ball around each of its points
 typedef struct fe__hull_passer {
     fe_dvec3 origin, translation; // of its middle, m

@@ -24,13 +24,24 @@ fe__mass fe__hull_form_mass(const fe__form *form, double density)
                       .axes = m->axes};
 }
 
-fe__bounds fe__hull_form_bounds(const fe__form *form, const fe__pose *pose)
+typedef fe__bounds bounds_of_hull(const fe__hull *hull, const fe__pose *pose);
+static inline fe__bounds place_bounds(const fe__form *form, const fe__pose *pose, bounds_of_hull *bounds)
 {
     fe__pose at = {{0.0, 0.0, 0.0}, pose->rotation};
-    fe__bounds b = fe__hull_bounds(form->hull, &at);
+    fe__bounds b = bounds(form->hull, &at);
     double s = (double)form->scale;
     fe_dvec3 origin = fe__dadd(pose->position, fe__drotate(pose->rotation, fe__widen(form->offset)));
     return (fe__bounds){fe__dadd(origin, fe__dscale(s, b.low)), fe__dadd(origin, fe__dscale(s, b.high))};
+}
+
+fe__bounds fe__hull_form_bounds(const fe__form *form, const fe__pose *pose)
+{
+    return place_bounds(form, pose, fe__hull_bounds);
+}
+
+fe__bounds fe__hull_form_rough_bounds(const fe__form *form, const fe__pose *pose)
+{
+    return place_bounds(form, pose, fe__hull_rough_bounds);
 }
 
 float fe__hull_form_reach(const fe__form *form, fe_vec3 centre)
