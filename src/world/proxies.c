@@ -1,6 +1,8 @@
 // proxies.c - see proxies.h.
 #include "world/proxies.h"
 
+#include "collision/form/hull_form.h"
+
 // A box in a tree is larger than its shape by half the speculative distance, for shapes no further apart than that must
 // have a pair, and by a share of its size, so that a body may move a while before its tree changes: larger ones move
 // further before it matters. More of it makes more pairs that never touch: in a heap of mixed bodies a share of 0.12

@@ -149,12 +149,6 @@ static inline fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *p
 {
     return fe__traits_of(form)->bounds(form, pose);
 }
-// A box that holds them, of a hull wider by some roundings: made sooner
-fe__bounds fe__hull_form_rough_bounds(const fe__form *form, const fe__pose *pose);
-static inline fe__bounds fe__form_rough_bounds(const fe__form *form, const fe__pose *pose)
-{
-    return fe__form_is_hull(form) ? fe__hull_form_rough_bounds(form, pose) : fe__form_bounds(form, pose);
-}
 // largest distance from `centre` (form's frame) to a point of the form, m; 0 for what is static only
 static inline float fe__form_reach(const fe__form *form, fe_vec3 centre)
 {

@@ -12,6 +12,13 @@ fe_dvec3 fe__hull_form_vertex(const fe__form *form, int32_t vertex); // form's f
 // As fe__form_face, when the vertex is known that lies farthest along the direction
 void fe__hull_form_face_at(const fe__form *form, int32_t vertex, fe_vec3 direction, fe__face *face);
 
+// A box that holds the bounds of a form, of a hull wider by some roundings: made sooner
+fe__bounds fe__hull_form_rough_bounds(const fe__form *form, const fe__pose *pose);
+static inline fe__bounds fe__form_rough_bounds(const fe__form *form, const fe__pose *pose)
+{
+    return fe__form_is_hull(form) ? fe__hull_form_rough_bounds(form, pose) : fe__form_bounds(form, pose);
+}
+
 // In the hull's frame. Of a face with more corners than FE_FACE_VERTICES some are left out, never the farthest along
 // `deepest`.
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out);
