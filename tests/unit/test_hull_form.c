@@ -87,6 +87,68 @@ static void bounds_are_tight(void **state)
     ask_hulls(ask_bounds);
 }
 
+// Both ends along a direction are the supports along and against it.
+static void ask_ends(const fe__hull *h, uint64_t *random)
+{
+    fe_dvec3 direction = cloud_direction(random);
+    fe__hull_ends ends = fe__hull_ends_along(h, direction);
+    assert_int_equal(ends.along, fe__hull_support(h, direction));
+    assert_int_equal(ends.against, fe__hull_support(h, fe__dscale(-1.0, direction)));
+}
+
+static void both_ends_are_supports(void **state)
+{
+    (void)state;
+    ask_hulls(ask_ends);
+}
+
+// Rough bounds hold the tight ones, and are wider by no more than a millionth of the hull's distance from its origin,
+// a few times: floats hold coordinates to 6e-8 of it, and 2e-6 of their sum are added.
+static void ask_rough_bounds(const fe__hull *h, uint64_t *random)
+{
+    fe_dvec3 axis = cloud_direction(random), at = fe__dscale(1e3, cloud_vector(random)), zero = {0.0, 0.0, 0.0};
+    fe__pose pose = {at, fe__normalized((fe_quat){(float)axis.x, (float)axis.y, (float)axis.z, 0.7f})};
+    fe__bounds tight = fe__hull_bounds(h, &pose), rough = fe__hull_rough_bounds(h, &pose);
+    double most = 1e-5 * (double)fe__hull_reach(h, fe__narrow(zero));
+    const double wider[6] = {tight.low.x - rough.low.x,   tight.low.y - rough.low.y,   tight.low.z - rough.low.z,
+                             rough.high.x - tight.high.x, rough.high.y - tight.high.y, rough.high.z - tight.high.z};
+    for (int32_t k = 0; k < 6; ++k) FE_WITHIN(wider[k], 0.0, most);
+}
+
+static void rough_bounds_hold_the_tight_ones(void **state)
+{
+    (void)state;
+    ask_hulls(ask_rough_bounds);
+}
+
+// A triangle over a plane of the hull is beside it by its lowest corner, and one that has a point of the hull is not.
+static void ask_beside(const fe__hull *h, uint64_t *random)
+{
+    int32_t face = cloud_int(random, h->face_count);
+    fe_dvec3 n = fe__hull_unit_normal(h, face);
+    double size = (double)h->extent, gap = 0.1 * size, rounding = 1e-4 * size;
+    fe_dvec3 high[3], through[3], on = fe__widen(fe__hull_vertex(h, cloud_int(random, h->vertex_count)));
+    fe_vec3 corner[3];
+    for (int32_t k = 0; k < 3; ++k) {
+        high[k] = fe__dadd(on, fe__dscale(size, cloud_vector(random)));
+        double over = k == 0 ? gap : gap * (double)(1 + cloud_int(random, 3));
+        high[k] = fe__dadd(high[k], fe__dscale(over - height_over(h, face, high[k]), n));
+        corner[k] = fe__narrow(high[k]);
+    }
+    assert_int_equal(fe__hull_is_beside(h, corner, (float)(gap - rounding)), 1);
+    fe_dvec3 side = cloud_vector(random), other = cloud_vector(random);
+    through[0] = fe__dadd(on, fe__dscale(size, side)), through[1] = fe__dadd(on, fe__dscale(size, other));
+    through[2] = fe__dsub(on, fe__dscale(size, fe__dadd(side, other)));
+    for (int32_t k = 0; k < 3; ++k) corner[k] = fe__narrow(through[k]);
+    assert_int_equal(fe__hull_is_beside(h, corner, (float)rounding), 0);
+}
+
+static void a_triangle_over_a_plane_is_beside(void **state)
+{
+    (void)state;
+    ask_hulls(ask_beside);
+}
+
 // A ray through a point inside: from outside it ends on the surface, on the face that it names, and no earlier point of
 // it is inside. One that starts inside hits at once. What is aimed past the farthest vertex misses.
 static void ask_ray(const fe__hull *h, uint64_t *random)
@@ -198,6 +260,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_support_is_the_lowest_of_the_farthest),
         cmocka_unit_test(bounds_are_tight),
+        cmocka_unit_test(both_ends_are_supports),
+        cmocka_unit_test(rough_bounds_hold_the_tight_ones),
+        cmocka_unit_test(a_triangle_over_a_plane_is_beside),
         cmocka_unit_test(rays_end_on_the_surface),
         cmocka_unit_test(the_nearest_point_has_nothing_ahead),
         cmocka_unit_test(what_touches_does_not_pass),
