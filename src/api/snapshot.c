@@ -111,7 +111,7 @@ static fe_result make_asset(const char *function, fe_store *store, const unsigne
     fe__store_lock(store);
     int32_t index = fe__id_slot_of(made);
     fe__asset_key key = fe__asset_key_of(store, index);
-    int32_t first = fe__store_find_key(store, key), is_new = first == index;
+    int32_t first = fe__store_find_key(store, key, 0), is_new = first == index;
     if (is_new)
         k->made[k->made_count++] = made;
     else

@@ -168,7 +168,7 @@ static uint32_t place_of(const fe_world *w, const fe__shape *s)
 
 static int32_t may_have(const fe__body *body, const fe__form *form)
 {
-    if (!fe__form_is_static_only(form) || body->type == FE_BODY_STATIC) return 1;
+    if (fe__form_is_of_parts(form) || !fe__form_is_static_only(form) || body->type == FE_BODY_STATIC) return 1;
     return fe__form_is_carried(form) && body->type == FE_BODY_KINEMATIC;
 }
 
@@ -197,7 +197,8 @@ static int32_t check_shape(fe__build *b, const fe__shape *shape, int32_t slot)
     const uint32_t placing = FE__SHAPE_IN_TREE | FE__SHAPE_IN_PLANES | FE__SHAPE_CENTRED;
     if (shape->flags & ~(uint32_t)SHAPE_FLAGS || (shape->flags & placing) != place)
         return fe__snapshot_refuse(s, "shape in slot %d: its flags are 0x%x", (int)slot, (unsigned)shape->flags);
-    if (fe__form_is_static_only(&shape->form) && shape->flags & FE__SHAPE_ONE_WAY)
+    if (!fe__form_is_of_parts(&shape->form) && fe__form_is_static_only(&shape->form) &&
+        shape->flags & FE__SHAPE_ONE_WAY)
         return fe__snapshot_refuse(s, "shape in slot %d: this form cannot be one-way", (int)slot);
     const fe_quat q = shape->local_rotation;
     if (!is_rotation((const float[]){q.x, q.y, q.z, q.w}))
@@ -276,11 +277,11 @@ int32_t fe__build_shapes(fe__build *b)
 }
 
 // ---- assets --------------------------------------------------------------------------------------------------------
-static int32_t find_asset(const fe__build *b, fe__asset_key key)
+static int32_t find_asset(const fe__build *b, fe__asset_key key, fe_asset handle)
 {
     for (int32_t i = 0; i < b->asset_count; ++i)
         if (fe__keys_are_same(b->keys[i], key)) return b->assets[i];
-    return fe__store_find_key(b->world->store, key);
+    return fe__store_find_key(b->world->store, key, handle);
 }
 
 // The record of a row: the asset, or what is made of it under a scale
@@ -288,7 +289,7 @@ static int32_t resolve(fe__build *b, const fe__asset_row *row, int32_t *out_inde
 {
     fe_store *store = b->world->store;
     fe__asset_key key = {{row->key[0], row->key[1]}};
-    int32_t index = find_asset(b, key);
+    int32_t index = find_asset(b, key, row->handle);
     if (index < 0) {
         b->missing = key;
         return fe__snapshot_fail(b->snapshot, FE_ERROR_STATE);
@@ -307,18 +308,22 @@ static int32_t resolve(fe__build *b, const fe__asset_row *row, int32_t *out_inde
     return fe__snapshot_refuse(b->snapshot, "assets: that of shape %d cannot have its scale", (int)row->shape);
 }
 
-// The use is the world's from here on: whoever frees the world lets go of it
-static int32_t add_use(fe__build *b, int32_t index, int32_t first_user)
+// The use is the world's from here on: whoever frees the world lets go of it. Two assets of one content may have become
+// one: then its users come behind those that it has
+static void add_use(fe__build *b, int32_t index, int32_t first_user)
 {
     fe_world *w = b->world;
-    int32_t place = w->use_count;
-    for (; place > 0 && w->uses[place - 1].asset >= index; --place) w->uses[place] = w->uses[place - 1];
+    fe__asset_use *known = fe__find_asset_use(w, index);
+    if (known) {
+        int32_t last = known->first_user;
+        while (w->shapes[last].next_user >= 0) last = w->shapes[last].next_user;
+        w->shapes[last].next_user = first_user;
+        return;
+    }
+    int32_t place = w->use_count++;
+    for (; place > 0 && w->uses[place - 1].asset > index; --place) w->uses[place] = w->uses[place - 1];
     w->uses[place] = (fe__asset_use){index, first_user};
-    w->use_count += 1;
     fe__asset_retain(w->store, index);
-    if (place + 1 < w->use_count && w->uses[place + 1].asset == index)
-        return fe__snapshot_refuse(b->snapshot, "assets: that of shape %d stands there twice", (int)first_user);
-    return 1;
 }
 
 // Every shape that has it gets its form. `users` counts those, so that no list goes round
@@ -347,8 +352,12 @@ int32_t fe__build_assets(fe__build *b)
         fe__asset_row row;
         int32_t index;
         fe__take_row(b->snapshot, FE__TABLE_ASSETS, i, &row);
-        if (!resolve(b, &row, &index) || !add_use(b, index, row.shape) || !give_form(b, index, row.shape, &users))
-            return 0;
+        if (!resolve(b, &row, &index)) return 0;
+        fe__asset_retain(w->store, index); // what was just made for it goes again, if it has no use
+        int32_t is_given = give_form(b, index, row.shape, &users);
+        if (is_given) add_use(b, index, row.shape);
+        fe__asset_release(w->store, index);
+        if (!is_given) return 0;
     }
     return users == 0 || fe__snapshot_refuse(b->snapshot, "assets: %d shapes have none", (int)users);
 }

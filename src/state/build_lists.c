@@ -164,9 +164,10 @@ static int32_t take_awake_bodies(fe__build *b)
         w->bodies[slot].awake_index = i;
         w->awake_bodies[w->awake_body_count++] = slot;
     }
+    // who has one gets another when the graph is built
     for (int32_t slot = 0; slot < w->body_ids.slot_count; ++slot)
-        if (has_body(w, slot) && w->bodies[slot].island >= rows)
-            return fe__snapshot_refuse(b->snapshot, "body in slot %d: there is no such island", (int)slot);
+        if (has_body(w, slot) && w->bodies[slot].island >= 0 && !(is_awake(w, slot) && is_dynamic(w, slot)))
+            return fe__snapshot_refuse(b->snapshot, "body in slot %d: it is in an island, and not awake", (int)slot);
     return 1;
 }
 
@@ -181,6 +182,29 @@ static int32_t take_awake_pairs(fe__build *b)
         w->pairs[pair].awake_index = i;
         w->awake_pairs[w->awake_pair_count++] = pair;
         w->awake_linked_count += (w->pairs[pair].flags & FE__PAIR_LINKED) != 0;
+    }
+    return 1;
+}
+
+// Normal, bodies and arms are those of the contact, which nothing has changed since
+static int32_t take_deferrals(fe__build *b)
+{
+    fe_world *w = b->world;
+    for (int32_t i = 0; i < fe__rows_of(b->snapshot, FE__TABLE_DEFERRALS); ++i) {
+        fe__deferral_row row;
+        fe__take_row(b->snapshot, FE__TABLE_DEFERRALS, i, &row);
+        const fe__pair *p = row.slot < w->pair_limit ? w->pairs + row.slot : NULL;
+        if (!p || p->flags & FE__PAIR_FREE || p->awake_index < 0 || w->awake_pairs[p->awake_index] < 0 ||
+            p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0 ||
+            w->contacts[row.slot].point_count > 0.0f)
+            return fe__snapshot_refuse(b->snapshot, "deferred pairs: %d cannot be", (int)row.slot);
+        fe__deferral *d = w->deferrals + p->awake_index;
+        fe__defer(d, w->odometers, w->bodies, w->contacts + row.slot, row.gap);
+        d->gap = row.gap, d->most = row.most;
+        memcpy(d->apart, row.apart, sizeof d->apart);
+        d->turned_a = w->odometers[d->body_a].turned - row.turned[0];
+        d->turned_b = w->odometers[d->body_b].turned - row.turned[1];
+        w->awake_pairs[p->awake_index] = ~row.slot;
     }
     return 1;
 }
@@ -229,7 +253,8 @@ static int32_t take_awake_joints(fe__build *b)
 int32_t fe__build_awake(fe__build *b)
 {
     const fe_world *w = b->world;
-    if (!take_awake_bodies(b) || !take_awake_pairs(b) || !take_awake_joints(b)) return 0;
+    if (!take_awake_bodies(b) || !take_awake_pairs(b) || !take_deferrals(b) || !take_awake_joints(b))
+        return 0;
     for (int32_t pair = 1; pair < w->pair_limit; ++pair)
         if (!(w->pairs[pair].flags & FE__PAIR_FREE) && !check_awake_pair(b, pair)) return 0;
     return 1;

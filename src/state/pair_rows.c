@@ -63,6 +63,36 @@ RECORDS(extras, world->extras + world->contacts[place].points)
 ROWS(awake_pairs, world->awake_pair_count, next_awake(world, place))
 RECORDS(awake_pairs, listed(place, room))
 
+// ---- deferred pairs ----------------------------------------------------------------------------------------------------
+static int32_t is_deferred(const fe_world *w, int32_t pair) { return w->awake_pairs[w->pairs[pair].awake_index] < 0; }
+
+// The one count that is not kept: the list is short against all that is written
+int32_t fe__count_deferrals(const fe_world *world)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < world->awake_pair_count; ++i) count += world->awake_pairs[i] < 0;
+    return count;
+}
+
+int32_t fe__next_deferrals(const fe_world *world, int32_t place)
+{
+    do place = next_awake(world, place);
+    while (place < world->pair_limit && !is_deferred(world, place));
+    return place;
+}
+
+const void *fe__deferrals_at(const fe_world *world, int32_t place, void *room)
+{
+    const fe__deferral *d = world->deferrals + world->pairs[place].awake_index;
+    *(fe__deferral_row *)room = (fe__deferral_row){place,
+                                                   d->gap,
+                                                   d->most,
+                                                   {d->apart[0], d->apart[1], d->apart[2]},
+                                                   {world->odometers[d->body_a].turned - d->turned_a,
+                                                    world->odometers[d->body_b].turned - d->turned_b}};
+    return room;
+}
+
 // ---- slots without a pair ------------------------------------------------------------------------------------------------
 ROWS(free_pairs, world->pair_limit - 1 - live_pairs(world) - world->owed_count,
      place < 0 ? world->first_free_pair : world->pairs[place].links[0].next)

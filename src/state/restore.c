@@ -4,11 +4,13 @@
 #include "solver/graph/graph.h"
 #include "world/asset_users.h"
 #include "world/lifetime.h"
+#include "world/step_scratch.h"
 
 #include <string.h>
 
-int32_t fe__snapshot_prepare(fe__build *b, const fe_world *world, fe_world *beside, int32_t number)
+int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, int32_t number)
 {
+    if (!fe__open_step_scratch(world)) return fe__snapshot_fail(b->snapshot, FE_ERROR_MEMORY);
     beside->memory = world->memory;
     beside->store = world->store;
     beside->number = number;
@@ -66,6 +68,7 @@ void fe__snapshot_adopt(fe_world *world, fe_world *beside)
     world->solver.unbuilt = world->awake_linked_count;
     fe__graph_forget(&world->solver);
     world->clusters.is_stale = 1;
+    atomic_store(&world->scratch->some_deferred, 1);
 }
 
 void fe__snapshot_drop(fe_world *world, fe_world *beside)

@@ -5,7 +5,7 @@
 
 // Builds beside the world, with its memory and its store. 0: refused, nothing of the world changed; the caller frees
 // `beside` by fe__snapshot_drop in any case. build->world is `beside`
-int32_t fe__snapshot_prepare(fe__build *build, const fe_world *world, fe_world *beside, int32_t number);
+int32_t fe__snapshot_prepare(fe__build *build, fe_world *world, fe_world *beside, int32_t number);
 // Exchanges the states: `beside` has the old one then. Nothing can fail
 void fe__snapshot_adopt(fe_world *world, fe_world *beside);
 void fe__snapshot_drop(fe_world *world, fe_world *beside); // and counts its memory

@@ -113,7 +113,7 @@ const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
     const fe__asset *parent = fe__store_parent(world->store, index);
     fe__asset_key key = fe__asset_key_of(world->store, parent->index);
     *(fe__asset_row *)room = (fe__asset_row){
-        {key.words[0], key.words[1]}, fe__store_asset(world->store, index)->scale, place, parent->kind};
+        {key.words[0], key.words[1]}, fe__store_asset(world->store, index)->scale, place, parent->kind, parent->handle};
     return room;
 }
 

@@ -37,6 +37,7 @@ typedef enum fe__table_number {
     FE__TABLE_OWED,       // slots of ended pairs, with the exit of each
     FE__TABLE_AWAKE_BODIES,
     FE__TABLE_AWAKE_PAIRS,
+    FE__TABLE_DEFERRALS, // of awake pairs
     FE__TABLE_AWAKE_JOINTS,
     FE__TABLE_PLANES,
     FE__TABLE_IGNORES,
@@ -95,6 +96,7 @@ typedef struct fe__asset_row {
     uint64_t key[2];
     fe_vec3 scale;
     int32_t shape, kind;
+    fe_asset handle; // in its store: of several with one key, that one
 } fe__asset_row;
 
 typedef struct fe__slot_row { // an entry of a list
@@ -105,6 +107,14 @@ typedef struct fe__owed_row {
     int32_t slot;
     fe__pair_event_record exit;
 } fe__owed_row;
+
+// What a deferred pair waits for (deferral.h): by how far its bodies turned since, so that where odometers began is no
+// state
+typedef struct fe__deferral_row {
+    int32_t slot;
+    float gap, most;
+    uint32_t apart[3], turned[2];
+} fe__deferral_row;
 
 typedef struct fe__ignore_row {
     int32_t slot;

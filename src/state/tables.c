@@ -90,7 +90,7 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, half, F32, POSITIVE) S(T, normal, F32, UNIT)
 
 #define ASSET(T, S, R, P) \
-    S(T, key, U64, ANY) S(T, scale, F32, FINITE) S(T, shape, I32, INDEX) S(T, kind, I32, INDEX) P(4)
+    S(T, key, U64, ANY) S(T, scale, F32, FINITE) S(T, shape, I32, INDEX) S(T, kind, I32, INDEX) P(4) S(T, handle, NAME, ANY)
 
 // ---- joints --------------------------------------------------------------------------------------------------------
 // Their parts follow from their settings, as when they were made
@@ -145,6 +145,9 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, surface_velocity, F32, FINITE) S(T, rolling_impulse, F32, FINITE)
 
 #define LISTED(T, S, R, P) S(T, slot, I32, INDEX)
+
+#define DEFERRAL(T, S, R, P) \
+    S(T, slot, I32, INDEX) S(T, gap, F32, FINITE) S(T, most, F32, FINITE) S(T, apart, U32, ANY) S(T, turned, U32, ANY)
 
 #define IGNORE(T, S, R, P) S(T, slot, I32, INDEX) S(T, body, I32, INDEX) S(T, next, I32, INDEX)
 
@@ -209,6 +212,7 @@ DEFINE(feature_fields, fe__features, FEATURES);
 DEFINE(extra_fields, fe__extra, EXTRA);
 DEFINE(listed_fields, fe__slot_row, LISTED);
 DEFINE(owed_fields, fe__owed_row, OWED);
+DEFINE(deferral_fields, fe__deferral_row, DEFERRAL);
 DEFINE(ignore_fields, fe__ignore_row, IGNORE);
 DEFINE(encounter_fields, fe__encounter_row, ENCOUNTER);
 DEFINE(pair_event_fields, fe__pair_event_record, PLAIN_PAIR_EVENT);
@@ -262,6 +266,7 @@ const fe__table fe__tables[FE__TABLES] = {
     [FE__TABLE_OWED] = TABLE("owed exits", owed_fields, fe__owed_row, owed),
     [FE__TABLE_AWAKE_BODIES] = TABLE("awake bodies", listed_fields, fe__slot_row, awake_bodies),
     [FE__TABLE_AWAKE_PAIRS] = TABLE("awake pairs", listed_fields, fe__slot_row, awake_pairs),
+    [FE__TABLE_DEFERRALS] = TABLE("deferred pairs", deferral_fields, fe__deferral_row, deferrals),
     [FE__TABLE_AWAKE_JOINTS] = TABLE("awake joints", listed_fields, fe__slot_row, awake_joints),
     [FE__TABLE_PLANES] = TABLE("planes", listed_fields, fe__slot_row, planes),
     [FE__TABLE_IGNORES] = TABLE("ignored pairs", ignore_fields, fe__ignore_row, ignores),

@@ -140,14 +140,19 @@ fe__asset_key fe__asset_key_of(const fe_store *store, int32_t index)
     return (fe__asset_key){{a->key[0], a->key[1]}};
 }
 
-int32_t fe__store_find_key(const fe_store *store, fe__asset_key key)
+static int32_t has_key(const fe_store *store, int32_t index, fe__asset_key key)
 {
-    int32_t found = -1;
+    return index >= 0 && fe__id_pool_is_alive(&store->ids, index) && !fe__store_asset(store, index)->parent &&
+           fe__keys_are_same(fe__asset_key_of(store, index), key);
+}
+
+int32_t fe__store_find_key(const fe_store *store, fe__asset_key key, fe_asset handle)
+{
+    int32_t found = -1, same = fe__id_slot_of(handle);
+    if (has_key(store, same, key) && store->ids.slots[same].generation == fe__id_generation_of(handle)) return same;
     for (int32_t i = 0; i < store->ids.slot_count; ++i) {
-        if (!fe__id_pool_is_alive(&store->ids, i)) continue;
-        const fe__asset *a = fe__store_asset(store, i);
-        if (a->parent || !fe__keys_are_same(fe__asset_key_of(store, i), key)) continue;
-        if (!a->destroyed) return i;
+        if (!has_key(store, i, key)) continue;
+        if (!fe__store_asset(store, i)->destroyed) return i;
         if (found < 0) found = i;
     }
     return found;

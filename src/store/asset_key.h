@@ -19,7 +19,8 @@ static inline int32_t fe__keys_are_same(fe__asset_key a, fe__asset_key b)
 // ---- under the lock ------------------------------------------------------------------------------------------------
 // Of an asset, or of the one that a scaled record is made of. Computed when it is first asked for after a change
 fe__asset_key fe__asset_key_of(const fe_store *store, int32_t index);
-// The record with that key, no scaled one; of several one that is not destroyed, else the first. -1: none
-int32_t fe__store_find_key(const fe_store *store, fe__asset_key key);
+// The record with that key, no scaled one; of several that with the handle (of a store with any number), else the first
+// that is not destroyed, else the first. -1: none
+int32_t fe__store_find_key(const fe_store *store, fe__asset_key key, fe_asset handle);
 
 #endif
