@@ -136,7 +136,7 @@ fe__asset_key fe__asset_key_of(const fe_store *store, int32_t index)
         hash_asset(&h, store, a);
         a->key[i] = fe__hash_end(&h);
     }
-    a->is_keyed = 1;
+    a->is_keyed = a->kind != FE__ASSET_COMPOUND; // what its parts have may change
     return (fe__asset_key){{a->key[0], a->key[1]}};
 }
 
