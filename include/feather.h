@@ -1749,9 +1749,9 @@ FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, con
                                      int32_t count);
 
 // ---- snapshots ------------------------------------------------------------------------------------------------------
-// A world as bytes, between two calls: all that decides how it goes on, and what the calls say of the last step. A world
-// made from them answers and moves as the saved one does, bit for bit, on every machine, with any workers and SIMD set.
-// docs/SNAPSHOTS.md has the details.
+// A world as bytes, between two calls: all that decides how it goes on, and what the calls say of the last step. A
+// world made from them answers and moves as the saved one does, bit for bit, on every machine, with any workers and
+// SIMD set. docs/SNAPSHOTS.md has the details.
 
 /// What an asset is known by outside its store: a fingerprint of its content. Equal content has equal keys, on every
 /// machine. An edited heightfield has another key.
@@ -1776,9 +1776,9 @@ typedef struct fe_save_options {
 FE_API void fe_save_options_init(fe_save_options *options, uint32_t struct_size);
 
 /// Writes the world as bytes, little-endian, without pointers. The same state gives the same bytes, whatever the
-/// machine, the workers, the SIMD set, and the allocator. Allocates nothing. In it are settings, tuning, bodies, shapes,
-/// joints, contacts, who is awake, pending forces, the events of the last step, user data, and which handles come next.
-/// Not in it are workers, pool, allocator, SIMD set, profile, counters, and the pair filter, which is yours.
+/// machine, the workers, the SIMD set, and the allocator. Allocates nothing. In it are settings, tuning, bodies,
+/// shapes, joints, contacts, who is awake, pending forces, the events of the last step, user data, and which handles
+/// come next. Not in it are workers, pool, allocator, SIMD set, profile, counters, and the pair filter, which is yours.
 /// @param options   NULL: the defaults
 /// @param out       at any alignment; NULL, 0 asks for the size only, in constant time unless assets are written, too
 /// @param capacity  bytes; with less than the size nothing is written
@@ -1824,9 +1824,9 @@ typedef struct fe_snapshot_info {
     uint32_t number;  ///< of the world
     int64_t step;     ///< how many steps there had been
     int32_t bodies, shapes, joints;
-    int32_t assets;  ///< that shapes have
-    int32_t inside;  ///< of them, those whose contents are in the bytes
-    int32_t filter;  ///< 1: the world had a pair filter
+    int32_t assets; ///< that shapes have
+    int32_t inside; ///< of them, those whose contents are in the bytes
+    int32_t filter; ///< 1: the world had a pair filter
 } fe_snapshot_info;
 
 FE_API void fe_snapshot_info_init(fe_snapshot_info *info, uint32_t struct_size);

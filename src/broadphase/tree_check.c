@@ -86,8 +86,7 @@ static int32_t check_nodes(walk *at, int32_t *out_node)
     return at->proxies == tree->proxy_count && at->nodes == tree->node_count - tree->dead;
 }
 
-int32_t fe__tree_check(fe__tree *tree, int32_t (*takes)(void *context, int32_t proxy), void *context,
-                       int32_t *out_node)
+int32_t fe__tree_check(fe__tree *tree, int32_t (*takes)(void *context, int32_t proxy), void *context, int32_t *out_node)
 {
     walk at = {tree, takes, context, 1, 0, 0};
     for (int32_t i = 0; i < tree->node_count; ++i) {

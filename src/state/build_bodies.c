@@ -28,9 +28,9 @@ static int32_t is_slot_used(const fe__id_pool *pool, int32_t slot)
 
 // ---- bodies --------------------------------------------------------------------------------------------------------
 enum {
-    BODY_FLAGS = FE__BODY_ENABLED | FE__BODY_BULLET | FE__BODY_SLEEP_ALLOWED | FE__BODY_MASS_GIVEN | FE__BODY_ISOTROPIC |
-                 FE__BODY_IGNORES | FE__BODY_DISTURBED | FE__BODY_SEEN_AWAKE | FE__BODY_STRAINED | FE__BODY_STRETCHED |
-                 FE__BODY_SIZES_STALE | FE__BODY_BURDENED
+    BODY_FLAGS = FE__BODY_ENABLED | FE__BODY_BULLET | FE__BODY_SLEEP_ALLOWED | FE__BODY_MASS_GIVEN |
+                 FE__BODY_ISOTROPIC | FE__BODY_IGNORES | FE__BODY_DISTURBED | FE__BODY_SEEN_AWAKE | FE__BODY_STRAINED |
+                 FE__BODY_STRETCHED | FE__BODY_SIZES_STALE | FE__BODY_BURDENED
 };
 
 static int32_t stands(const fe__body *body)
@@ -209,14 +209,10 @@ static int32_t check_shape(fe__build *b, const fe__shape *shape, int32_t slot)
 static int32_t take_shape(fe__build *b, int32_t slot, int32_t row)
 {
     fe__shape *shape = b->world->shapes + slot;
-    fe__form_row form;
+    fe__form_numbers numbers;
     fe__take_row(b->snapshot, FE__TABLE_SHAPES, row, shape);
-    fe__take_row(b->snapshot, FE__TABLE_FORMS, row, &form);
-    shape->form = (fe__form){.type = form.type, .radius = form.radius};
-    if (!fe__form_has_asset(&shape->form)) {
-        shape->form.half_height = form.half_height, shape->form.distance = form.distance;
-        shape->form.half = form.half, shape->form.normal = form.normal;
-    }
+    fe__take_row(b->snapshot, FE__TABLE_FORMS, row, &numbers);
+    shape->form = fe__form_of_numbers(&numbers);
     if (!check_shape(b, shape, slot)) return 0;
     shape->body_serial = b->world->bodies[shape->body].serial;
     b->world->wants_hits |= (shape->events & FE_SHAPE_EVENTS_HIT) != 0;
@@ -333,7 +329,7 @@ static int32_t give_form(fe__build *b, int32_t index, int32_t first_user, int32_
     const fe__form form = fe__asset_form(w->store, index);
     for (int32_t slot = first_user; slot >= 0; slot = w->shapes[slot].next_user) {
         if (slot >= w->shape_ids.slot_count || !is_slot_used(&w->shape_ids, slot) ||
-            w->shapes[slot].form.type != form.type || --*users < 0)
+            !fe__forms_are_alike(&w->shapes[slot].form, &form) || --*users < 0)
             return fe__snapshot_refuse(b->snapshot, "assets: shape %d does not have that of %d", (int)slot,
                                        (int)first_user);
         w->shapes[slot].form = form;

@@ -11,7 +11,10 @@
 #include <string.h>
 
 // The table of a type's settings
-static fe__table_number settings_table(int32_t type) { return (fe__table_number)(FE__TABLE_DISTANCE_JOINTS + type - 1); }
+static fe__table_number settings_table(int32_t type)
+{
+    return (fe__table_number)(FE__TABLE_DISTANCE_JOINTS + type - 1);
+}
 _Static_assert(FE_JOINT_DISTANCE == 1 && FE_JOINT_BALL == 2 && FE_JOINT_HINGE == 3 && FE_JOINT_FIXED == 4 &&
                    FE_JOINT_CONFIGURABLE == 5,
                "tables of settings are in the order of the types");
@@ -29,8 +32,8 @@ static int32_t reserve_joints(fe__build *b, int32_t slots)
     fe_result result = fe__record_pool_reserve(&w->joint_axes, memory, fe__rows_of(b->snapshot, FE__TABLE_JOINT_AXES));
     w->joints.axes = (fe__joint_axes *)(void *)w->joint_axes.records;
     for (int32_t type = 1; type < FE__JOINT_TYPES && result == FE_OK; ++type)
-        result = fe__record_pool_reserve(w->joint_settings + type, memory,
-                                         fe__rows_of(b->snapshot, settings_table(type)));
+        result =
+            fe__record_pool_reserve(w->joint_settings + type, memory, fe__rows_of(b->snapshot, settings_table(type)));
     return result == FE_OK || fe__snapshot_fail(b->snapshot, result);
 }
 

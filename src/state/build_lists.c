@@ -25,7 +25,8 @@ static void *claim_record(const fe__record_pool *pool, int32_t slot)
     return fe__record(pool, slot);
 }
 
-// ---- ignored bodies --------------------------------------------------------------------------------------------------
+// ---- ignored bodies
+// --------------------------------------------------------------------------------------------------
 static int32_t take_ignore(fe__build *b, int32_t i)
 {
     fe_world *w = b->world;
@@ -74,7 +75,8 @@ int32_t fe__build_ignores(fe__build *b, const fe__world_row *row)
     return met == 2 * (int64_t)rows || fe__snapshot_refuse(b->snapshot, "ignored pairs: one is in no list");
 }
 
-// ---- encounters ------------------------------------------------------------------------------------------------------
+// ---- encounters
+// ------------------------------------------------------------------------------------------------------
 static int32_t is_whole(const fe_world *w, int32_t shape)
 {
     return shape < w->shape_ids.slot_count && w->shape_ids.slots[shape].next == FE_ID_ALIVE;
@@ -147,7 +149,8 @@ int32_t fe__build_encounters(fe__build *b, const fe__world_row *row)
     return 1;
 }
 
-// ---- who is awake ----------------------------------------------------------------------------------------------------
+// ---- who is awake
+// ----------------------------------------------------------------------------------------------------
 static int32_t is_awake(const fe_world *w, int32_t body) { return w->bodies[body].awake_index >= 0; }
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
 
@@ -209,8 +212,8 @@ static int32_t take_deferrals(fe__build *b)
     return 1;
 }
 
-// A pair is awake while one of its bodies is, or to be looked at once. What is in the constraint graph is awake with all
-// that moves in it, or not at all
+// A pair is awake while one of its bodies is, or to be looked at once. What is in the constraint graph is awake with
+// all that moves in it, or not at all
 static int32_t check_awake_pair(fe__build *b, int32_t pair)
 {
     const fe_world *w = b->world;
@@ -222,7 +225,8 @@ static int32_t check_awake_pair(fe__build *b, int32_t pair)
         if (!linked || !awake) return 1;
         if ((a || !is_dynamic(w, p->body_a)) && (c || !is_dynamic(w, p->body_b))) return 1;
     }
-    return fe__snapshot_refuse(b->snapshot, "pair %d: it is %s, its bodies are not", (int)pair, awake ? "awake" : "asleep");
+    return fe__snapshot_refuse(b->snapshot, "pair %d: it is %s, its bodies are not", (int)pair,
+                               awake ? "awake" : "asleep");
 }
 
 static int32_t take_awake_joints(fe__build *b)
@@ -253,18 +257,18 @@ static int32_t take_awake_joints(fe__build *b)
 int32_t fe__build_awake(fe__build *b)
 {
     const fe_world *w = b->world;
-    if (!take_awake_bodies(b) || !take_awake_pairs(b) || !take_deferrals(b) || !take_awake_joints(b))
-        return 0;
+    if (!take_awake_bodies(b) || !take_awake_pairs(b) || !take_deferrals(b) || !take_awake_joints(b)) return 0;
     for (int32_t pair = 1; pair < w->pair_limit; ++pair)
         if (!(w->pairs[pair].flags & FE__PAIR_FREE) && !check_awake_pair(b, pair)) return 0;
     return 1;
 }
 
-// ---- events ----------------------------------------------------------------------------------------------------------
-#define TAKE_EVENTS(build, table, array, used, capacity)                                             \
-    do {                                                                                             \
-        int32_t rows = fe__rows_of((build)->snapshot, table);                                        \
-        if (!FE_RESERVE(fe__memory_of(build), array, capacity, rows)) return fe__lack_memory(build); \
+// ---- events
+// ----------------------------------------------------------------------------------------------------------
+#define TAKE_EVENTS(build, table, array, used, capacity)                                                \
+    do {                                                                                                \
+        int32_t rows = fe__rows_of((build)->snapshot, table);                                           \
+        if (!FE_RESERVE(fe__memory_of(build), array, capacity, rows)) return fe__lack_memory(build);    \
         for (used = 0; used < rows; ++used) fe__take_row((build)->snapshot, table, used, array + used); \
     } while (0)
 

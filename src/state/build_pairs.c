@@ -63,8 +63,8 @@ static int32_t is_in_broad_phase(const fe_world *w, int32_t shape)
 
 enum {
     BY_NATURE = FE__PAIR_SENSOR | FE__PAIR_FLIPPED | FE__PAIR_SWAPPED | FE__PAIR_PATCH | FE__PAIR_OF_PARTS,
-    BY_STATE = FE__PAIR_TOUCHING | FE__PAIR_LINKED | FE__PAIR_ONCE | FE__PAIR_CROSSED | FE__PAIR_DENIED |
-               FE__PAIR_PASSING
+    BY_STATE =
+        FE__PAIR_TOUCHING | FE__PAIR_LINKED | FE__PAIR_ONCE | FE__PAIR_CROSSED | FE__PAIR_DENIED | FE__PAIR_PASSING
 };
 
 static int32_t check_shapes(fe__build *b, int32_t pair)
@@ -135,7 +135,8 @@ static int32_t take_pair(fe__build *b, int32_t pair, int32_t row)
     p->events = (uint16_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
     int32_t colour = w->contacts[pair].colour, both = w->contacts[pair].kind & FE__ROW_PAIR;
     // bounds that only grow: without a colour is what found all of them taken
-    if (colour == FE__OVERFLOW_COLOUR) *(both ? &w->pair_colours : &w->static_colours) = both ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
+    if (colour == FE__OVERFLOW_COLOUR)
+        *(both ? &w->pair_colours : &w->static_colours) = both ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
     if (colour >= 0 && colour < FE__PAIR_COLOURS) w->pair_colours = fe__maxi(w->pair_colours, colour + 1);
     if (colour >= FE__PAIR_COLOURS && colour < FE__OVERFLOW_COLOUR)
         w->static_colours = fe__maxi(w->static_colours, colour - FE__PAIR_COLOURS + 1);
@@ -193,7 +194,8 @@ static int32_t count_heads(fe__build *b, int32_t rows)
     return heads == rows || fe__snapshot_refuse(b->snapshot, "pairs: a patch has no head");
 }
 
-// ---- lists of bodies: heads, and the patches that are linked ---------------------------------------------------------
+// ---- lists of bodies: heads, and the patches that are linked
+// ---------------------------------------------------------
 static int32_t is_listed(const fe__pair *p) { return !(p->flags & FE__PAIR_PATCH) || p->flags & FE__PAIR_LINKED; }
 
 // fe__link.previous is -2 until the link was met

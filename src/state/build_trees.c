@@ -5,7 +5,8 @@
 #include "broadphase/tree_check.h"
 
 enum {
-    // A walk goes down a tree that deep without harm to the stack. Trees deeper than 30 are built anew every eighth step
+    // A walk goes down a tree that deep without harm to the stack. Trees deeper than 30 are built anew every eighth
+    // step
     DEEPEST = 1024,
     FREE_NODES = 4096, // see rows.c: no snapshot asks for more memory than its size lets expect
     PER_NODE = 4
@@ -75,7 +76,8 @@ static int32_t build_planes(fe__build *b)
     }
     for (int32_t slot = 0; slot < w->shape_ids.slot_count; ++slot)
         seen += (w->shapes[slot].flags & FE__SHAPE_IN_PLANES) != 0;
-    return seen == rows || fe__snapshot_refuse(b->snapshot, "planes: %d are listed, %d are there", (int)rows, (int)seen);
+    return seen == rows ||
+           fe__snapshot_refuse(b->snapshot, "planes: %d are listed, %d are there", (int)rows, (int)seen);
 }
 
 static int32_t check_all_in_trees(fe__build *b)

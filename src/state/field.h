@@ -85,7 +85,7 @@ static inline uint32_t fe__field_size(const fe__field *field) { return field->co
 // when a snapshot is read, or scratch; P(bytes) is padding. From one list come the table, and the assertion that every
 // byte of the record was thought of.
 #define FE__SIZE_OF(record, member) sizeof(((record *)0)->member)
-#define FE__FIELD(record, member, kind, range) \
+#define FE__FIELD(record, member, kind, range)                         \
     {#member, offsetof(record, member), FE__##kind, FE__RANGE_##range, \
      FE__SIZE_OF(record, member) / (sizeof(FE__TYPE_##kind))},
 #define FE__NO_FIELD(...)
@@ -93,10 +93,13 @@ static inline uint32_t fe__field_size(const fe__field *field) { return field->co
 #define FE__ANEW_SIZE(record, member) +FE__SIZE_OF(record, member)
 #define FE__PADDING(bytes) +(bytes)
 // Where pointers have 8 bytes. Other machines pad otherwise, by what nobody reads
-#define FE__IS_WHOLE(record, list)                                                                            \
-    _Static_assert(sizeof(void *) != 8 ||                                                                     \
-                       0 list(record, FE__STATE_SIZE, FE__ANEW_SIZE, FE__PADDING) == sizeof(record),          \
+#define FE__IS_WHOLE(record, list)                                                                   \
+    _Static_assert(sizeof(void *) != 8 ||                                                            \
+                       0 list(record, FE__STATE_SIZE, FE__ANEW_SIZE, FE__PADDING) == sizeof(record), \
                    #record " has a byte that is neither state nor made anew")
-#define FE__FIELDS(record, list) {list(record, FE__FIELD, FE__NO_FIELD, FE__NO_FIELD)}
+#define FE__FIELDS(record, list)                            \
+    {                                                       \
+        list(record, FE__FIELD, FE__NO_FIELD, FE__NO_FIELD) \
+    }
 
 #endif

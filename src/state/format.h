@@ -18,9 +18,9 @@ enum {
     FE__RESULTS = 1, // grows when the same calls give other bits
     FE__SNAPSHOT_HEADER = 48,
     FE__SECTION_HEADER = 24,
-    FE__SECTION_ASSET = 1000,     // the bytes of fe_asset_save: one section each
-    FE__SECTION_MAY_SKIP = 1,     // flag
-    FE__SECTION_ROWS = 8          // bytes, before the columns
+    FE__SECTION_ASSET = 1000, // the bytes of fe_asset_save: one section each
+    FE__SECTION_MAY_SKIP = 1, // flag
+    FE__SECTION_ROWS = 8      // bytes, before the columns
 };
 
 // Places in the header

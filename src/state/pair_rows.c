@@ -13,17 +13,18 @@ static const void *listed(int32_t slot, void *room)
     return room;
 }
 
-#define ROWS(rows, length, following)                                                              \
-    int32_t fe__count_##rows(const fe_world *world) { return length; }                             \
+#define ROWS(rows, length, following)                                  \
+    int32_t fe__count_##rows(const fe_world *world) { return length; } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place) { return following; }
-#define RECORDS(rows, record)                                                       \
-    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room)   \
-    {                                                                               \
-        (void)world, (void)room;                                                    \
-        return record;                                                              \
+#define RECORDS(rows, record)                                                     \
+    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room) \
+    {                                                                             \
+        (void)world, (void)room;                                                  \
+        return record;                                                            \
     }
 
-// ---- pairs: contact 0 is no contact ------------------------------------------------------------------------------------
+// ---- pairs: contact 0 is no contact
+// ------------------------------------------------------------------------------------
 static int32_t live_pairs(const fe_world *w) { return w->pair_count + w->field_pair_count * (FE__PATCHES - 1); }
 
 static int32_t next_pair(const fe_world *w, int32_t place)
@@ -46,7 +47,10 @@ static int32_t next_awake(const fe_world *w, int32_t place)
     return place;
 }
 
-static int32_t points_in_use(const fe_world *w) { return atomic_load_explicit(&w->point_count, memory_order_relaxed) - 1; }
+static int32_t points_in_use(const fe_world *w)
+{
+    return atomic_load_explicit(&w->point_count, memory_order_relaxed) - 1;
+}
 
 ROWS(pairs, live_pairs(world), next_pair(world, place))
 RECORDS(pairs, world->pairs + place)
@@ -63,7 +67,8 @@ RECORDS(extras, world->extras + world->contacts[place].points)
 ROWS(awake_pairs, world->awake_pair_count, next_awake(world, place))
 RECORDS(awake_pairs, listed(place, room))
 
-// ---- deferred pairs ----------------------------------------------------------------------------------------------------
+// ---- deferred pairs
+// ----------------------------------------------------------------------------------------------------
 static int32_t is_deferred(const fe_world *w, int32_t pair) { return w->awake_pairs[w->pairs[pair].awake_index] < 0; }
 
 // The one count that is not kept: the list is short against all that is written
@@ -93,7 +98,8 @@ const void *fe__deferrals_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- slots without a pair ------------------------------------------------------------------------------------------------
+// ---- slots without a pair
+// ------------------------------------------------------------------------------------------------
 ROWS(free_pairs, world->pair_limit - 1 - live_pairs(world) - world->owed_count,
      place < 0 ? world->first_free_pair : world->pairs[place].links[0].next)
 RECORDS(free_pairs, listed(place, room))
@@ -107,7 +113,8 @@ const void *fe__owed_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- record pools --------------------------------------------------------------------------------------------------------
+// ---- record pools
+// --------------------------------------------------------------------------------------------------------
 static int32_t next_free(const fe__record_pool *pool, int32_t place)
 {
     int32_t next;
@@ -149,8 +156,7 @@ ROWS(ignores, live_records(&world->ignores), next_ignore(world, place))
 const void *fe__ignores_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__ignore *i = fe__record(&world->ignores, place);
-    *(fe__ignore_row *)room =
-        (fe__ignore_row){place, {i->body[0], i->body[1]}, {i->links[0].next, i->links[1].next}};
+    *(fe__ignore_row *)room = (fe__ignore_row){place, {i->body[0], i->body[1]}, {i->links[0].next, i->links[1].next}};
     return room;
 }
 

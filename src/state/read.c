@@ -124,8 +124,7 @@ typedef struct section {
 
 static int32_t read_section(fe__snapshot *s, int64_t at, section *out)
 {
-    if (s->size - at < FE__SECTION_HEADER)
-        return fe__snapshot_refuse(s, "byte %lld: a section is cut", (long long)at);
+    if (s->size - at < FE__SECTION_HEADER) return fe__snapshot_refuse(s, "byte %lld: a section is cut", (long long)at);
     const unsigned char *in = s->bytes + at;
     out->type = fe__take_u32(&in), out->version = fe__take_u16(&in), out->flags = fe__take_u16(&in);
     uint64_t size = fe__take_u64(&in);
@@ -161,7 +160,8 @@ static int32_t read_sections(fe__snapshot *s)
     uint64_t told = fe__take_u64(&header), sum = 0;
     uint32_t count = fe__take_u32(&header);
     int64_t at = FE__SNAPSHOT_HEADER;
-    if (count < FE__TABLES) return fe__snapshot_refuse(s, "byte %d: %u sections are too few", FE__AT_SECTIONS, (unsigned)count);
+    if (count < FE__TABLES)
+        return fe__snapshot_refuse(s, "byte %d: %u sections are too few", FE__AT_SECTIONS, (unsigned)count);
     for (uint32_t i = 0; i < count; ++i) {
         section in = {0};
         if (!read_section(s, at, &in)) return 0;
@@ -173,8 +173,7 @@ static int32_t read_sections(fe__snapshot *s)
         sum = fe__join_sums(sum, in.sum);
         at = in.content - s->bytes + in.size;
     }
-    if (at != s->size)
-        return fe__snapshot_refuse(s, "byte %lld: something stands behind the sections", (long long)at);
+    if (at != s->size) return fe__snapshot_refuse(s, "byte %lld: something stands behind the sections", (long long)at);
     if (told != fe__join_sums(sum, fe__header_sum(s->bytes)))
         return fe__snapshot_refuse(s, "byte %d: the sum is not that of the bytes: they were altered", FE__AT_SUM);
     return 1;

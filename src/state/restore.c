@@ -2,6 +2,7 @@
 #include "state/restore.h"
 
 #include "solver/graph/graph.h"
+#include "state/assemble.h"
 #include "world/asset_users.h"
 #include "world/lifetime.h"
 #include "world/step_scratch.h"
@@ -27,11 +28,19 @@ int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, in
 typedef struct range {
     size_t first, end;
 } range;
-#define RANGE(from, to) {offsetof(fe_world, from), offsetof(fe_world, to) + sizeof(((fe_world *)0)->to)}
+#define RANGE(from, to)                                                                \
+    {                                                                                  \
+        offsetof(fe_world, from), offsetof(fe_world, to) + sizeof(((fe_world *)0)->to) \
+    }
 static const range ranges[] = {
-    RANGE(user_data, number),       RANGE(gravity, tuning),           RANGE(body_ids, shape_capacity),
-    RANGE(uses, use_capacity),      RANGE(next_serial, swiftest),     RANGE(pair_set, joint_events),
-    RANGE(joint_event_count, joint_event_capacity),                   RANGE(step_number, last_dt),
+    RANGE(user_data, number),
+    RANGE(gravity, tuning),
+    RANGE(body_ids, shape_capacity),
+    RANGE(uses, use_capacity),
+    RANGE(next_serial, swiftest),
+    RANGE(pair_set, joint_events),
+    RANGE(joint_event_count, joint_event_capacity),
+    RANGE(step_number, last_dt),
 };
 
 static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)

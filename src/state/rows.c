@@ -1,18 +1,19 @@
 // rows.c - see rows.h: the world, its slots, and what has a slot: bodies, shapes, joints.
 #include "state/rows.h"
 
+#include "collision/form/sound.h"
 #include "store/asset_key.h"
 #include "world/asset_users.h"
 
 // ---- lists that are arrays: rows in their order ---------------------------------------------------------------------
-#define ARRAY_ROWS(rows, length)                                                                \
-    int32_t fe__count_##rows(const fe_world *world) { return length; }                          \
+#define ARRAY_ROWS(rows, length)                                       \
+    int32_t fe__count_##rows(const fe_world *world) { return length; } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place) { return (void)world, place + 1; }
-#define ARRAY_RECORDS(rows, record)                                                 \
-    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room)   \
-    {                                                                               \
-        (void)room;                                                                 \
-        return record;                                                              \
+#define ARRAY_RECORDS(rows, record)                                               \
+    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room) \
+    {                                                                             \
+        (void)room;                                                               \
+        return record;                                                            \
     }
 
 static const void *listed(int32_t slot, void *room)
@@ -66,12 +67,13 @@ static int32_t next_slot(const fe__id_pool *pool, int32_t slot, int32_t with_hid
     return slot;
 }
 
-// ---- bodies: anchors are their joints' -------------------------------------------------------------------------------
-#define SLOT_ROWS(rows, length, pool, with_hidden)                          \
-    int32_t fe__count_##rows(const fe_world *world) { return length; }      \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place)           \
-    {                                                                       \
-        return next_slot(&world->pool, place, with_hidden);                 \
+// ---- bodies: anchors are their joints'
+// -------------------------------------------------------------------------------
+#define SLOT_ROWS(rows, length, pool, with_hidden)                     \
+    int32_t fe__count_##rows(const fe_world *world) { return length; } \
+    int32_t fe__next_##rows(const fe_world *world, int32_t place)      \
+    {                                                                  \
+        return next_slot(&world->pool, place, with_hidden);            \
     }
 
 SLOT_ROWS(bodies, world->body_count, body_ids, 0)
@@ -79,18 +81,14 @@ ARRAY_RECORDS(bodies, world->bodies + place)
 SLOT_ROWS(drifts, world->body_count, body_ids, 0)
 ARRAY_RECORDS(drifts, world->drifts + place)
 
-// ---- shapes: with the parts of compounds -----------------------------------------------------------------------------
+// ---- shapes: with the parts of compounds
+// -----------------------------------------------------------------------------
 SLOT_ROWS(shapes, world->shape_count, shape_ids, 1)
 ARRAY_RECORDS(shapes, world->shapes + place)
 SLOT_ROWS(forms, world->shape_count, shape_ids, 1)
 const void *fe__forms_at(const fe_world *world, int32_t place, void *room)
 {
-    const fe__form *form = &world->shapes[place].form;
-    fe__form_row *row = room;
-    *row = (fe__form_row){.type = form->type};
-    if (fe__form_has_asset(form)) return room;
-    row->radius = form->radius, row->half_height = form->half_height, row->distance = form->distance;
-    row->half = form->half, row->normal = form->normal;
+    *(fe__form_numbers *)room = fe__numbers_of_form(&world->shapes[place].form);
     return room;
 }
 
@@ -117,9 +115,10 @@ const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- joints: joint i has slot i - 1 -----------------------------------------------------------------------------------
-#define JOINT_ROWS(rows, record)                        \
-    SLOT_ROWS(rows, world->joint_count, joint_ids, 0)   \
+// ---- joints: joint i has slot i - 1
+// -----------------------------------------------------------------------------------
+#define JOINT_ROWS(rows, record)                      \
+    SLOT_ROWS(rows, world->joint_count, joint_ids, 0) \
     ARRAY_RECORDS(rows, record)
 
 JOINT_ROWS(joints, world->joint_records + place + 1)
@@ -136,8 +135,8 @@ static int32_t next_of_type(const fe_world *world, int32_t place, int32_t type)
     return place;
 }
 
-#define TYPE_ROWS(rows, number)                                                                          \
-    int32_t fe__count_##rows(const fe_world *world) { return live_records(world->joint_settings + number); } \
+#define TYPE_ROWS(rows, number)                                                                                  \
+    int32_t fe__count_##rows(const fe_world *world) { return live_records(world->joint_settings + number); }     \
     int32_t fe__next_##rows(const fe_world *world, int32_t place) { return next_of_type(world, place, number); } \
     ARRAY_RECORDS(rows, fe__record(world->joint_settings + number, world->joint_records[place + 1].settings))
 
@@ -156,7 +155,8 @@ int32_t fe__next_joint_axes(const fe_world *world, int32_t place)
 }
 ARRAY_RECORDS(joint_axes, world->joints.axes + world->joints.frames[place + 1].axes)
 
-// ---- who is awake, planes ----------------------------------------------------------------------------------------------
+// ---- who is awake, planes
+// ----------------------------------------------------------------------------------------------
 ARRAY_ROWS(awake_bodies, world->awake_body_count)
 ARRAY_RECORDS(awake_bodies, listed(world->awake_bodies[place], room))
 ARRAY_ROWS(awake_joints, world->awake_joint_count)
@@ -164,7 +164,8 @@ ARRAY_RECORDS(awake_joints, listed(world->awake_joints[place], room))
 ARRAY_ROWS(planes, world->plane_count)
 ARRAY_RECORDS(planes, listed(world->planes[place], room))
 
-// ---- events ------------------------------------------------------------------------------------------------------------
+// ---- events
+// ------------------------------------------------------------------------------------------------------------
 ARRAY_ROWS(pair_events, world->pair_event_count)
 ARRAY_RECORDS(pair_events, world->pair_events + place)
 ARRAY_ROWS(body_events, world->body_event_count)
@@ -174,7 +175,8 @@ ARRAY_RECORDS(hit_events, world->hit_events + place)
 ARRAY_ROWS(joint_events, world->joint_event_count)
 ARRAY_RECORDS(joint_events, world->joint_events + place)
 
-// ---- trees -------------------------------------------------------------------------------------------------------------
+// ---- trees
+// -------------------------------------------------------------------------------------------------------------
 ARRAY_ROWS(static_nodes, world->static_tree.node_count)
 ARRAY_RECORDS(static_nodes, world->static_tree.nodes + place)
 ARRAY_ROWS(moving_nodes, world->moving_tree.node_count)

@@ -3,8 +3,8 @@
 #define FE_STATE_ROWS_H
 #include "state/table.h"
 
-#define FE__DECLARE_ROWS(rows)                                   \
-    int32_t fe__count_##rows(const fe_world *world);             \
+#define FE__DECLARE_ROWS(rows)                                     \
+    int32_t fe__count_##rows(const fe_world *world);               \
     int32_t fe__next_##rows(const fe_world *world, int32_t place); \
     const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room);
 

@@ -58,8 +58,8 @@ typedef struct fe__table {
     const char *name;
     const fe__field *fields;
     int32_t field_count;
-    int32_t record_size;                            // bytes, of what `at` gives
-    int32_t (*count)(const fe_world *world);        // rows, in constant time
+    int32_t record_size;                                   // bytes, of what `at` gives
+    int32_t (*count)(const fe_world *world);               // rows, in constant time
     int32_t (*next)(const fe_world *world, int32_t place); // after a place, -1: the first. Of `count` places
     // The record there: the world's own, or one that is made in `room`
     const void *(*at)(const fe_world *world, int32_t place, void *room);
@@ -83,13 +83,6 @@ typedef struct fe__world_row {
     int32_t free_slots[3]; // the first of bodies, shapes, joints
     fe_world_tuning tuning;
 } fe__world_row;
-
-// Of the form's union, what is no asset's
-typedef struct fe__form_row {
-    int32_t type;
-    float radius, half_height, distance;
-    fe_vec3 half, normal;
-} fe__form_row;
 
 // An asset, by the slot of its first user, under the scale of that
 typedef struct fe__asset_row {

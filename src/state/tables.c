@@ -3,6 +3,7 @@
 // Whoever adds a member to a record adds a line here: the assertion behind each list counts bytes.
 #include "state/table.h"
 
+#include "collision/form/sound.h"
 #include "state/rows.h"
 #include "world/encounter.h"
 
@@ -86,11 +87,13 @@ const fe__range fe__ranges[FE__RANGES] = {
     R(T, body_serial) S(T, user_data, U64, ANY) S(T, next_user, I32, LINK) S(T, parent, I32, LINK)
 
 #define FORM(T, S, R, P) \
-    S(T, type, I32, FORM_KIND) S(T, radius, F32, POSITIVE) S(T, half_height, F32, POSITIVE) S(T, distance, F32, FINITE) \
+    S(T, kind, I32, FORM_KIND) S(T, radius, F32, POSITIVE) S(T, half_height, F32, POSITIVE) \
+    S(T, distance, F32, FINITE) \
     S(T, half, F32, POSITIVE) S(T, normal, F32, UNIT)
 
 #define ASSET(T, S, R, P) \
-    S(T, key, U64, ANY) S(T, scale, F32, FINITE) S(T, shape, I32, INDEX) S(T, kind, I32, INDEX) P(4) S(T, handle, NAME, ANY)
+    S(T, key, U64, ANY) S(T, scale, F32, FINITE) S(T, shape, I32, INDEX) S(T, kind, I32, INDEX) P(4) \
+    S(T, handle, NAME, ANY)
 
 // ---- joints --------------------------------------------------------------------------------------------------------
 // Their parts follow from their settings, as when they were made
@@ -129,7 +132,8 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, head, I32, LINK) S(T, triangle, I32, LINK)
 
 #define CONTACT(T, S, R, P) \
-    S(T, normal, F32, FINITE) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE) S(T, static_friction, F32, POSITIVE) \
+    S(T, normal, F32, FINITE) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE) \
+    S(T, static_friction, F32, POSITIVE) \
     S(T, surface, F32, FINITE) S(T, found_span, F32, FINITE) S(T, longest_arm, F32, FINITE) \
     S(T, found_a, F32, FINITE) S(T, found_b, F32, FINITE) S(T, found_low, F32, FINITE) R(T, points) R(T, body_a) \
     R(T, body_b) S(T, kind, I32, ROW_KIND) S(T, colour, I32, COLOUR)
@@ -182,15 +186,16 @@ const fe__range fe__ranges[FE__RANGES] = {
 // ---- trees ---------------------------------------------------------------------------------------------------------
 #define TREE(T, S, R, P) \
     R(T, kernels) R(T, nodes) S(T, node_count, I32, INDEX) S(T, node_capacity, I32, INDEX) S(T, dead, I32, INDEX) \
-    P(4) R(T, slot) R(T, slot_capacity) S(T, proxy_count, I32, INDEX) S(T, promised, I32, INDEX) S(T, depth, I32, INDEX) \
+    P(4) R(T, slot) R(T, slot_capacity) S(T, proxy_count, I32, INDEX) S(T, promised, I32, INDEX) \
+    S(T, depth, I32, INDEX) \
     S(T, built_cost, F32, POSITIVE) P(4) S(T, origin, F64, FINITE)
 
 #define NODE(T, S, R, P) \
     S(T, box, F32, ANY) S(T, child, I32, ANY) S(T, parent, I32, LINK) S(T, lane, I32, INDEX) R(T, spare)
 // clang-format on
 
-#define DEFINE(name, record, list)                                   \
-    static const fe__field name[] = FE__FIELDS(record, list);        \
+#define DEFINE(name, record, list)                            \
+    static const fe__field name[] = FE__FIELDS(record, list); \
     FE__IS_WHOLE(record, list)
 
 DEFINE(world_fields, fe__world_row, WORLD);
@@ -198,7 +203,7 @@ DEFINE(slot_fields, fe__id_slot, SLOT);
 DEFINE(body_fields, fe__body, BODY);
 DEFINE(drift_fields, fe__drift, DRIFT);
 DEFINE(shape_fields, fe__shape, SHAPE);
-DEFINE(form_fields, fe__form_row, FORM);
+DEFINE(form_fields, fe__form_numbers, FORM);
 DEFINE(asset_fields, fe__asset_row, ASSET);
 DEFINE(joint_fields, fe__joint_record, JOINT);
 DEFINE(anchor_fields, fe__joint, JOINT_ANCHOR);
@@ -223,17 +228,21 @@ DEFINE(tree_fields, fe__tree, TREE);
 DEFINE(node_fields, fe__tree_node, NODE);
 
 // Of each type of joint, the words behind the front
-#define SETTINGS(def)                                                                                       \
-    {"setting", 0, FE__U32, FE__RANGE_ANY, (sizeof(def) - FE__JOINT_FRONT) / sizeof(uint32_t)}
+#define SETTINGS(def)                                                                            \
+    {                                                                                            \
+        "setting", 0, FE__U32, FE__RANGE_ANY, (sizeof(def) - FE__JOINT_FRONT) / sizeof(uint32_t) \
+    }
 static const fe__field distance_fields[] = {SETTINGS(fe_distance_joint_def)};
 static const fe__field ball_fields[] = {SETTINGS(fe_ball_joint_def)};
 static const fe__field hinge_fields[] = {SETTINGS(fe_hinge_joint_def)};
 static const fe__field fixed_fields[] = {SETTINGS(fe_fixed_joint_def)};
 static const fe__field configurable_fields[] = {SETTINGS(fe_configurable_joint_def)};
 
-#define TABLE(name, fields, record, rows) \
-    {name, fields, sizeof(fields) / sizeof *(fields), (int32_t)sizeof(record), fe__count_##rows, fe__next_##rows, \
-     fe__##rows##_at}
+#define TABLE(name, fields, record, rows)                                                                            \
+    {                                                                                                                \
+        name, fields, sizeof(fields) / sizeof *(fields), (int32_t)sizeof(record), fe__count_##rows, fe__next_##rows, \
+            fe__##rows##_at                                                                                          \
+    }
 
 const fe__table fe__tables[FE__TABLES] = {
     [FE__TABLE_WORLD] = TABLE("world", world_fields, fe__world_row, world),
@@ -243,7 +252,7 @@ const fe__table fe__tables[FE__TABLES] = {
     [FE__TABLE_BODIES] = TABLE("bodies", body_fields, fe__body, bodies),
     [FE__TABLE_DRIFTS] = TABLE("drifts", drift_fields, fe__drift, drifts),
     [FE__TABLE_SHAPES] = TABLE("shapes", shape_fields, fe__shape, shapes),
-    [FE__TABLE_FORMS] = TABLE("forms", form_fields, fe__form_row, forms),
+    [FE__TABLE_FORMS] = TABLE("forms", form_fields, fe__form_numbers, forms),
     [FE__TABLE_ASSETS] = TABLE("assets", asset_fields, fe__asset_row, assets),
     [FE__TABLE_JOINTS] = TABLE("joints", joint_fields, fe__joint_record, joints),
     [FE__TABLE_DISTANCE_JOINTS] = TABLE("distance joints", distance_fields, fe_distance_joint_def, distance_joints),

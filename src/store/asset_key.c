@@ -1,6 +1,7 @@
 // asset_key.c - see asset_key.h. Two hashes of the same numbers, which begin with another word each.
 #include "store/asset_key.h"
 
+#include "collision/form/sound.h"
 #include "core/hash.h"
 
 #include <string.h>
@@ -61,7 +62,8 @@ static void hash_hull(fe__hash *h, const fe__hull *hull)
     hash_lanes(h, &hull->vertices, hull->vertex_count);
     hash_lanes(h, &hull->normals, hull->face_count);
     hash_lanes(h, &hull->directions, hull->direction_count);
-    for (int32_t i = 0; i < hull->face_count; ++i) fe__hash_u32(h, (uint32_t)hull->faces[i].count << 16 | hull->faces[i].edge);
+    for (int32_t i = 0; i < hull->face_count; ++i)
+        fe__hash_u32(h, (uint32_t)hull->faces[i].count << 16 | hull->faces[i].edge);
     hash_bytes(h, hull->corners, 2 * (int64_t)hull->edge_count);
 }
 
@@ -87,17 +89,17 @@ static void hash_mesh(fe__hash *h, const fe__mesh *m)
 static void hash_part(fe__hash *h, const fe_store *store, const fe__compound_part *part)
 {
     const fe__form *form = &part->form;
-    fe__hash_i32(h, form->type);
+    const fe__form_numbers n = fe__numbers_of_form(form);
+    fe__hash_i32(h, n.kind);
+    fe__hash_floats2(h, n.radius, n.half_height);
+    fe__hash_float(h, n.distance);
+    fe__hash_vec3(h, n.half);
+    fe__hash_vec3(h, n.normal);
     if (fe__form_has_asset(form)) {
         fe__asset_key key = fe__asset_key_of(store, form->field);
         fe__hash_u64(h, key.words[0]);
         fe__hash_u64(h, key.words[1]);
         fe__hash_vec3(h, fe__store_asset(store, form->field)->scale);
-    } else {
-        fe__hash_floats2(h, form->radius, form->half_height);
-        fe__hash_float(h, form->distance);
-        fe__hash_vec3(h, form->half);
-        fe__hash_vec3(h, form->normal);
     }
     fe__hash_vec3(h, part->position);
     hash_quat(h, part->rotation);

@@ -1,6 +1,6 @@
 // test_continuation.c - a script played in one world, and played again in worlds that are made anew from bytes on the
-// way, or become what they were, with other workers and SIMD sets: after each step the same hash and the same events, and
-// the same bytes, to the last.
+// way, or become what they were, with other workers and SIMD sets: after each step the same hash and the same events,
+// and the same bytes, to the last.
 #include "fe_test.h"
 #include "support/play.h"
 
@@ -171,12 +171,12 @@ CASE(compounds)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(brief_goes_on_bit_for_bit),   cmocka_unit_test(crowd_goes_on_bit_for_bit),
-        cmocka_unit_test(mixed_goes_on_bit_for_bit),   cmocka_unit_test(terrain_goes_on_bit_for_bit),
-        cmocka_unit_test(fast_goes_on_bit_for_bit),    cmocka_unit_test(joints_goes_on_bit_for_bit),
-        cmocka_unit_test(spawn_goes_on_bit_for_bit),   cmocka_unit_test(solids_goes_on_bit_for_bit),
-        cmocka_unit_test(meshes_goes_on_bit_for_bit),  cmocka_unit_test(cooked_goes_on_bit_for_bit),
-        cmocka_unit_test(scales_goes_on_bit_for_bit),  cmocka_unit_test(turns_goes_on_bit_for_bit),
+        cmocka_unit_test(brief_goes_on_bit_for_bit),     cmocka_unit_test(crowd_goes_on_bit_for_bit),
+        cmocka_unit_test(mixed_goes_on_bit_for_bit),     cmocka_unit_test(terrain_goes_on_bit_for_bit),
+        cmocka_unit_test(fast_goes_on_bit_for_bit),      cmocka_unit_test(joints_goes_on_bit_for_bit),
+        cmocka_unit_test(spawn_goes_on_bit_for_bit),     cmocka_unit_test(solids_goes_on_bit_for_bit),
+        cmocka_unit_test(meshes_goes_on_bit_for_bit),    cmocka_unit_test(cooked_goes_on_bit_for_bit),
+        cmocka_unit_test(scales_goes_on_bit_for_bit),    cmocka_unit_test(turns_goes_on_bit_for_bit),
         cmocka_unit_test(compounds_goes_on_bit_for_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
-// test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and nothing
-// changed; or the world lives: it steps, it is saved, and what is read of it is a number.
+// test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and
+// nothing changed; or the world lives: it steps, it is saved, and what is read of it is a number.
 #include "fe_test.h"
 #include "support/play.h"
 
@@ -44,7 +44,8 @@ static fe_world *new_world(void)
     return world;
 }
 
-// ---- right sums, by code of its own ----------------------------------------------------------------------------------
+// ---- right sums, by code of its own
+// ----------------------------------------------------------------------------------
 static uint64_t take(const unsigned char *at, int32_t size)
 {
     uint64_t x = 0;
@@ -87,7 +88,8 @@ static void mend(bytes b)
     put(b.data + AT_SUM, join(sum, fe__hash_end(&hash)));
 }
 
-// ---- the scene: each form, joints, trees, sleep, events, what is free and what is ignored ----------------------------
+// ---- the scene: each form, joints, trees, sleep, events, what is free and what is ignored
+// ----------------------------
 static fe_world *make_scene(const script *s, int32_t steps)
 {
     static play p;
@@ -132,7 +134,8 @@ static void live(fe_world *world)
     FE_TRUE(fe_world_step(world, 1.0f / 60.0f) == FE_OK);
 }
 
-// ---- laws ------------------------------------------------------------------------------------------------------------
+// ---- laws
+// ------------------------------------------------------------------------------------------------------------
 static void bytes_that_are_cut_are_refused_and_change_nothing(void **state)
 {
     (void)state;
@@ -174,7 +177,8 @@ static uint32_t draw(uint32_t *seed)
     return *seed >> 8;
 }
 
-// Of a section a number of 1, 2, 4 or 8 bytes becomes another: any, one nearby, one of another place, a corner of its type
+// Of a section a number of 1, 2, 4 or 8 bytes becomes another: any, one nearby, one of another place, a corner of its
+// type
 static void alter(bytes b, uint32_t *seed)
 {
     static const uint64_t corners[] = {0,          1,          UINT64_MAX, 0x7fffffff, 0x80000000,
@@ -236,10 +240,10 @@ static int32_t rounds(void)
     return long_run ? atoi(long_run) : 150;
 }
 
-#define CASE(name, steps)                                          \
-    static void name##_under_random_numbers(void **state)          \
-    {                                                              \
-        (void)state;                                               \
+#define CASE(name, steps)                                                       \
+    static void name##_under_random_numbers(void **state)                       \
+    {                                                                           \
+        (void)state;                                                            \
         random_numbers_are_refused_or_live_in(&script_##name, steps, rounds()); \
     }
 CASE(brief, 60)

@@ -3,6 +3,24 @@
 
 #include "core/ranges.h"
 
+fe__form_numbers fe__numbers_of_form(const fe__form *form)
+{
+    fe__form_numbers numbers = {.kind = form->type};
+    if (fe__form_has_asset(form)) return numbers;
+    numbers.radius = form->radius, numbers.half_height = form->half_height, numbers.distance = form->distance;
+    numbers.half = form->half, numbers.normal = form->normal;
+    return numbers;
+}
+
+fe__form fe__form_of_numbers(const fe__form_numbers *numbers)
+{
+    fe__form form = {.type = numbers->kind, .radius = numbers->radius};
+    if (fe__form_has_asset(&form)) return form;
+    form.half_height = numbers->half_height, form.distance = numbers->distance;
+    form.half = numbers->half, form.normal = numbers->normal;
+    return form;
+}
+
 static int32_t is_length(float x) { return x >= FE_LEAST_LENGTH && x <= FE_MAX_LENGTH; }
 static int32_t is_half(float x) { return x >= 0.5f * FE_LEAST_LENGTH && x <= FE_MAX_LENGTH; }
 static int32_t are_zero(float x, float y, float z) { return x == 0.0f && y == 0.0f && z == 0.0f; }
