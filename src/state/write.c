@@ -40,14 +40,6 @@ static void put_swapped(unsigned char *out, const unsigned char *in, const fe__f
         for (uint32_t k = 0; k < size; ++k) *out++ = in[size - 1 - k];
 }
 
-static inline int32_t is_little_endian(void)
-{
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, sizeof first);
-    return first;
-}
-
 static void put_names(unsigned char *out, const unsigned char *in, const fe__field *field)
 {
     const fe_handle number = (fe_handle)FE_ID_LAST_NUMBER << FE_ID_NUMBER_SHIFT;
@@ -71,7 +63,7 @@ static void put_column(const fe__field *field, const unsigned char *const *recor
         for (int32_t i = 0; i < count; ++i, out += size) put_names(out, records[i] + field->offset, field);
         return;
     }
-    if (!is_little_endian()) {
+    if (!FE_IS_LITTLE_ENDIAN) {
         for (int32_t i = 0; i < count; ++i, out += size) put_swapped(out, records[i] + field->offset, field);
         return;
     }
