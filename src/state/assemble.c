@@ -19,7 +19,8 @@ static int32_t take_world(fe__build *b, fe__world_row *row)
         return fe__snapshot_refuse(b->snapshot, "the next serial is %llu, the step %lld",
                                    (unsigned long long)row->next_serial, (long long)row->step_number);
     if (row->row_kinds >> FE__ROW_KINDS << FE__ROW_KINDS || row->joint_row_kinds >> FE__PARTS ||
-        row->pair_colours > FE__PAIR_COLOURS || row->static_colours > FE__STATIC_COLOURS)
+        row->pair_colours > FE__PAIR_COLOURS || row->static_colours > FE__STATIC_COLOURS ||
+        row->most_joints > FE_ID_MAX_SLOTS)
         return fe__snapshot_refuse(b->snapshot, "there are no such rows or colours");
     if (row->has_extras && !(row->row_kinds >> FE__ROW_SPECIAL))
         return fe__snapshot_refuse(b->snapshot, "there are extras, but no special rows");

@@ -1,4 +1,5 @@
-// test_snapshot.c - the calls: arguments, sizes, assets by key and inside, numbers, pair filters, allocations that fail.
+// test_snapshot.c - the calls: arguments, sizes, assets by key and inside, numbers, pair filters, allocations that
+// fail.
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
@@ -43,7 +44,8 @@ static uint64_t hash_of(const fe_world *world)
 
 static void destroy(fe_world *world) { FE_TRUE(fe_world_destroy(world) == FE_OK); }
 
-// ---- arguments -------------------------------------------------------------------------------------------------------
+// ---- arguments
+// -------------------------------------------------------------------------------------------------------
 static void saving_says_how_large_it_is_and_writes_no_less(void **state)
 {
     (void)state;
@@ -97,7 +99,7 @@ static void a_snapshot_says_what_is_in_it(void **state)
     fe_world *world = make(&script_brief, 30);
     bytes b = save(world);
     fe_counters counters;
-    uint32_t number;
+    uint32_t number = 0;
     fe_counters_init(&counters, sizeof counters);
     FE_TRUE(fe_world_get_counters(world, &counters) == FE_OK && fe_world_get_number(world, &number) == FE_OK);
     fe_snapshot_info info;
@@ -113,7 +115,8 @@ static void a_snapshot_says_what_is_in_it(void **state)
     destroy(world);
 }
 
-// ---- handles, filters, assets ------------------------------------------------------------------------------------------
+// ---- handles, filters, assets
+// ------------------------------------------------------------------------------------------
 static void handles_are_the_saved_worlds_unless_a_new_number_is_asked_for(void **state)
 {
     (void)state;
@@ -154,7 +157,7 @@ static fe_world *world_on_a_field(fe_asset *out_field)
 {
     const float heights[9] = {0.0f, 0.1f, 0.0f, 0.2f, 0.0f, 0.1f, 0.0f, 0.1f, 0.3f};
     fe_world *world;
-    fe_store *store;
+    fe_store *store = NULL;
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = 3, def.cell_x = def.cell_z = 4.0f, def.heights = heights;
@@ -183,7 +186,7 @@ static void assets_go_by_their_keys_or_inside(void **state)
     (void)state;
     fe_asset field;
     fe_world *world = world_on_a_field(&field), *twin = NULL;
-    fe_store *store;
+    fe_store *store = NULL;
     FE_TRUE(fe_world_get_store(world, &store) == FE_OK);
     fe_save_options options;
     fe_save_options_init(&options, sizeof options);
@@ -211,7 +214,7 @@ static void an_edited_field_is_another_asset(void **state)
     (void)state;
     fe_asset field;
     fe_world *world = world_on_a_field(&field);
-    fe_store *store;
+    fe_store *store = NULL;
     fe_asset_key before, after;
     float height = 0.5f;
     FE_TRUE(fe_world_get_store(world, &store) == FE_OK && fe_asset_get_key(store, field, &before) == FE_OK);
@@ -223,7 +226,8 @@ static void an_edited_field_is_another_asset(void **state)
     destroy(world);
 }
 
-// ---- memory ------------------------------------------------------------------------------------------------------------
+// ---- memory
+// ------------------------------------------------------------------------------------------------------------
 static fe_world *world_of(counting *c, bytes from)
 {
     fe_allocator allocator;
