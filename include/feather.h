@@ -1749,6 +1749,98 @@ FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies,
 FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
                                      int32_t count);
 
+// ---- snapshots ------------------------------------------------------------------------------------------------------
+// A world as bytes, between two calls: all that decides how it goes on, and what the calls say of the last step. A
+// world made from them answers and moves as the saved one does, bit for bit, on every machine, with any workers and
+// SIMD set. docs/SNAPSHOTS.md has the details.
+
+/// What an asset is known by outside its store: a fingerprint of its content. Equal content has equal keys, on every
+/// machine. An edited heightfield has another key.
+typedef struct fe_asset_key {
+    uint64_t words[2];
+} fe_asset_key;
+
+/// @return FE_ERROR_STALE, FE_ERROR_KIND as for any asset
+FE_API fe_result fe_asset_get_key(const fe_store *store, fe_asset asset, fe_asset_key *out_key);
+
+/// Bits of fe_save_options.flags.
+typedef enum fe_save {
+    FE_SAVE_ASSETS = 1, ///< the contents of its assets, too, by fe_asset_save: where it is loaded, none need be there
+    FE_SAVE_FORCE32 = 0x7fffffff
+} fe_save;
+
+typedef struct fe_save_options {
+    uint32_t struct_size;
+    uint32_t flags; ///< fe_save. Default 0: assets go by their keys
+} fe_save_options;
+
+FE_API void fe_save_options_init(fe_save_options *options, uint32_t struct_size);
+
+/// Writes the world as bytes, little-endian, without pointers. The same state gives the same bytes, whatever the
+/// machine, the workers, the SIMD set, and the allocator. Allocates nothing. In it are settings, tuning, bodies,
+/// shapes, joints, contacts, who is awake, pending forces, the events of the last step, user data, and which handles
+/// come next. Not in it are workers, pool, allocator, SIMD set, profile, counters, and the pair filter, which is yours.
+/// @param options   NULL: the defaults
+/// @param out       at any alignment; NULL, 0 asks for the size only, in constant time unless assets are written, too
+/// @param capacity  bytes; with less than the size nothing is written
+/// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED with FE_SAVE_ASSETS for a world with compounds
+FE_API int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity);
+
+typedef struct fe_restore_options {
+    uint32_t struct_size;
+    int32_t new_number;  ///< 1: handles have the world's own number, not that of the saved one. Default 0
+    int32_t asset_count; ///< of the two arrays. Default 0
+    uint32_t reserved;
+    const fe_asset_key *keys; ///< assets that stand for these keys, before those of the store
+    const fe_asset *assets;   ///< of the world's store
+} fe_restore_options;
+
+FE_API void fe_restore_options_init(fe_restore_options *options, uint32_t struct_size);
+
+/// Makes the world the saved one: any bytes fit any world. Handles of what was made since are stale, and may be given
+/// again to something else. The store, the workers, the SIMD set and the pair filter stay the world's own. An error
+/// changes nothing. Bytes from anywhere may be given: what is accepted is sound, even if nobody saved it.
+///
+/// Assets are found by their keys in the world's store, or in the bytes, or in `options`; those from the bytes stay in
+/// the store. It takes memory for a second world while it runs.
+/// @param options  NULL: the defaults
+/// @param bytes    of fe_world_save, at any alignment; nothing keeps them
+/// @return FE_FOREIGN: done, from a library whose results differ: it goes on, not bit for bit. FE_ERROR_DATA for bytes
+///         that are cut, altered or of something else, fe_last_error tells what is wrong; FE_ERROR_VERSION for those of
+///         a newer format; FE_ERROR_STATE when an asset is missing, or when the saved world had a pair filter and this
+///         one has none
+FE_API fe_result fe_world_restore(fe_world *world, const fe_restore_options *options, const void *bytes, int64_t size);
+/// A new world from the bytes: as fe_world_create and fe_world_restore. Of the definition count workers, pool, store,
+/// allocator, tasks, SIMD set, and with new_number its number; all else is the saved world's.
+/// @param def  NULL: the defaults
+/// @return as those two
+FE_API fe_result fe_world_load(const fe_world_def *def, const fe_restore_options *options, const void *bytes,
+                               int64_t size, fe_world **out_world);
+
+/// What a snapshot says of itself.
+typedef struct fe_snapshot_info {
+    uint32_t struct_size;
+    uint32_t library; ///< fe_version of the library that saved it
+    int32_t foreign;  ///< 1: its results differ from this library's
+    uint32_t number;  ///< of the world
+    int64_t step;     ///< how many steps there had been
+    int32_t bodies, shapes, joints;
+    int32_t assets; ///< that shapes have
+    int32_t inside; ///< of them, those whose contents are in the bytes
+    int32_t filter; ///< 1: the world had a pair filter
+} fe_snapshot_info;
+
+FE_API void fe_snapshot_info_init(fe_snapshot_info *info, uint32_t struct_size);
+/// Every check of a restore but for assets that are not in the bytes, without a world.
+/// @param out_info  its struct_size must be set; or NULL
+/// @return FE_OK, FE_FOREIGN, FE_ERROR_DATA, FE_ERROR_VERSION, FE_ERROR_MEMORY
+FE_API fe_result fe_snapshot_check(const void *bytes, int64_t size, fe_snapshot_info *out_info);
+/// The keys of the assets that a snapshot needs, each once for each scale that it is used with.
+/// @param stride  sizeof(fe_asset_key)
+/// @return how many there are, or an error
+FE_API int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *out_keys, uint32_t stride,
+                                      int32_t capacity);
+
 // ---- drawing --------------------------------------------------------------------------------------------------------
 //
 // What the world looks like from inside, as arrays for whoever draws: a debug view, a picture, a renderer's first day.

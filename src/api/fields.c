@@ -99,6 +99,15 @@ DEFINE(fe_joint_state)
 #define THIS fe_query_filter
 DEFINE(fe_query_filter)
 #undef THIS
+#define THIS fe_save_options
+DEFINE(fe_save_options)
+#undef THIS
+#define THIS fe_restore_options
+DEFINE(fe_restore_options)
+#undef THIS
+#define THIS fe_snapshot_info
+DEFINE(fe_snapshot_info)
+#undef THIS
 #define THIS fe_draw_options
 DEFINE(fe_draw_options)
 #undef THIS

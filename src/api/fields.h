@@ -135,6 +135,12 @@ typedef struct fe__fields {
         FIELD(speed) FIELD(linear_error) FIELD(angular_error)
 #define FE_FIELDS_fe_query_filter(FIELD) \
     FIELD(struct_size) FIELD(mask) FIELD(flags) FIELD(excluded_count) FIELD(excluded)
+#define FE_FIELDS_fe_save_options(FIELD) FIELD(struct_size) FIELD(flags)
+#define FE_FIELDS_fe_restore_options(FIELD) \
+    FIELD(struct_size) FIELD(new_number) FIELD(asset_count) FIELD(reserved) FIELD(keys) FIELD(assets)
+#define FE_FIELDS_fe_snapshot_info(FIELD)                                                             \
+    FIELD(struct_size) FIELD(library) FIELD(foreign) FIELD(number) FIELD(step) FIELD(bodies) FIELD(shapes) \
+        FIELD(joints) FIELD(assets) FIELD(inside) FIELD(filter)
 #define FE_FIELDS_fe_draw_options(FIELD) \
     FIELD(struct_size)                   \
     FIELD(parts) FIELD(origin) FIELD(lower) FIELD(upper) FIELD(only) FIELD(scale) FIELD(segments)
@@ -146,7 +152,8 @@ typedef struct fe__fields {
     STRUCT(fe_profile) STRUCT(fe_counters) STRUCT(fe_energy) STRUCT(fe_body_def) STRUCT(fe_mass_data)        \
     STRUCT(fe_geometry) STRUCT(fe_shape_def) STRUCT(fe_joint_def) STRUCT(fe_distance_joint_def)              \
     STRUCT(fe_ball_joint_def) STRUCT(fe_hinge_joint_def) STRUCT(fe_fixed_joint_def)                          \
-    STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter) STRUCT(fe_draw_options)
+    STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter) STRUCT(fe_draw_options) \
+    STRUCT(fe_save_options) STRUCT(fe_restore_options) STRUCT(fe_snapshot_info)
 
 #define FE_DECLARE_FIELDS(type) extern const fe__fields fe__fields_of_##type;
 FE_EACH_STRUCT(FE_DECLARE_FIELDS)

@@ -1,5 +1,5 @@
 // world.c - the API of worlds: creation, step, settings, counters.
-#include "api/check.h"
+#include "api/world.h"
 #include "core/fp_state.h"
 #include "step/step.h"
 #include "world/handles.h"
@@ -63,9 +63,8 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     return FE_OK;
 }
 
-fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
+fe_result fe__create_world(const char *function, const fe_world_def *def, fe_world **out_world)
 {
-    FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(out_world);
     whole_def whole;
     FE_TRY(read_world_def(function, def, &whole));
@@ -84,6 +83,11 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
     FE_TRY(fe__report(function, result));
     *out_world = world;
     return FE_OK;
+}
+
+fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
+{
+    return fe__create_world(__func__, def, out_world);
 }
 
 fe_result fe_world_destroy(fe_world *world)
@@ -185,9 +189,8 @@ void fe_world_tuning_init(fe_world_tuning *tuning, uint32_t struct_size)
     fe__init_struct(tuning, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_tuning(const char *function, const fe_world_tuning *tuning, fe_world_tuning *copy)
+fe_result fe__check_tuning(const char *function, const fe_world_tuning *copy)
 {
-    FE_READ_STRUCT(tuning, copy);
     FE_CHECK_FLOAT(copy->contact_hertz, FE_LEAST_VALUE, FE_MAX_VALUE);
     FE_CHECK_FLOAT(copy->contact_damping_ratio, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(copy->contact_push_speed, 0.0f, FE_MAX_SPEED);
@@ -217,7 +220,8 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 {
     FE_WRITE_ALONE(world);
     fe_world_tuning copy = world->tuning;
-    FE_TRY(read_tuning(function, tuning, &copy));
+    FE_READ_STRUCT(tuning, &copy);
+    FE_TRY(fe__check_tuning(function, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
     if (copy.joint_hertz != world->tuning.joint_hertz)
         world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring

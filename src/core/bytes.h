@@ -13,6 +13,9 @@ typedef union fe__float_word {
     uint32_t bits;
 } fe__float_word;
 
+// Numbers lie in memory as they are written: copies of many at once
+#define FE_IS_LITTLE_ENDIAN (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
+
 // ---- writing -------------------------------------------------------------------------------------------------------
 static inline unsigned char *fe__put_u8(unsigned char *at, uint8_t x)
 {

@@ -60,16 +60,10 @@ static void count(const fe__step *step)
     }
 }
 
-static fe_result open_scratch(fe_world *w)
-{
-    if (!w->scratch) w->scratch = fe__allocate(&w->memory, sizeof *w->scratch);
-    return w->scratch ? FE_OK : FE_ERROR_MEMORY;
-}
-
 fe_result fe__world_step(fe_world *w, float dt)
 {
     enum { MILLISECONDS = 1000 };
-    if (open_scratch(w) != FE_OK) return FE_ERROR_MEMORY;
+    if (!fe__open_step_scratch(w)) return FE_ERROR_MEMORY;
     fe__step step = {.world = w,
                      .scratch = w->scratch,
                      .dt = dt,

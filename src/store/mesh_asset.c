@@ -5,7 +5,7 @@
 
 void fe__mesh_write_materials(fe__asset *a, const void *materials, uint32_t stride)
 {
-    a->special = 0;
+    a->special = a->is_keyed = 0;
     for (int32_t i = 0; i < a->material_count; ++i) {
         memcpy(a->materials + i, (const unsigned char *)materials + (size_t)stride * (size_t)i, sizeof *a->materials);
         a->special |= fe__material_is_special(a->materials + i);

@@ -44,7 +44,9 @@ typedef struct fe__asset {
     };
     fe_material *materials; // of the cells of a heightfield, the triangles of a mesh
     int32_t material_count;
-    int32_t special;   // a material needs special rows
+    int32_t special;  // a material needs special rows
+    int32_t is_keyed; // 1: `key` is that of the content as it is now (asset_key.h)
+    uint64_t key[2];
     int32_t users;     // worlds with shapes that have it, and calls that are about to make one; its scaled ones;
                        // parts of compounds
     int32_t destroyed; // by its owner: it goes with its last user

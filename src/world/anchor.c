@@ -10,6 +10,12 @@ int32_t fe__anchor_create(fe_world *world, fe_dvec3 origin)
 {
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__id_pool_hide(&world->body_ids, index);
+    fe__anchor_open(world, index, origin);
+    return index;
+}
+
+void fe__anchor_open(fe_world *world, int32_t index, fe_dvec3 origin)
+{
     fe__body *body = &world->bodies[index];
     uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
@@ -21,7 +27,6 @@ int32_t fe__anchor_create(fe_world *world, fe_dvec3 origin)
     body->first_contact = body->first_shape = body->last_shape = -1;
     body->order_next = body->order_previous = -1;
     fe__anchor_move(world, index, origin);
-    return index;
 }
 
 void fe__anchor_move(fe_world *world, int32_t index, fe_dvec3 origin)

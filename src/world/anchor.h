@@ -7,7 +7,8 @@
 #include "world/world.h"
 
 int32_t fe__anchor_create(fe_world *world, fe_dvec3 origin); // body index; room was reserved by fe__reserve_bodies
-void fe__anchor_destroy(fe_world *world, int32_t body);      // its joint is gone
+void fe__anchor_open(fe_world *world, int32_t body, fe_dvec3 origin); // the record of a hidden slot
+void fe__anchor_destroy(fe_world *world, int32_t body);               // its joint is gone
 void fe__anchor_move(fe_world *world, int32_t body, fe_dvec3 origin);
 static inline int32_t fe__is_anchor(const fe_world *world, int32_t body)
 {

@@ -27,13 +27,18 @@ fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
     return FE_OK;
 }
 
+void fe__world_release_assets(fe_world *world)
+{
+    for (int32_t i = 0; i < world->use_count; ++i) fe__asset_release(world->store, world->uses[i].asset);
+    world->use_count = 0;
+    FE_FREE(&world->memory, world->uses, world->use_capacity);
+}
+
 void fe__world_close_store(fe_world *world)
 {
     if (!world->store) return;
     fe__store_lock(world->store);
-    for (int32_t i = 0; i < world->use_count; ++i) fe__asset_release(world->store, world->uses[i].asset);
-    world->use_count = 0;
-    FE_FREE(&world->memory, world->uses, world->use_capacity);
+    fe__world_release_assets(world);
     fe__store_unlock(world->store);
     fe__store_leave(world->store, &world->member);
     world->memory.guard = NULL;
@@ -56,7 +61,7 @@ static int32_t place_of(const fe_world *world, int32_t asset)
     return low;
 }
 
-static fe__asset_use *find_use(const fe_world *world, int32_t asset)
+fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset)
 {
     int32_t place = place_of(world, asset);
     return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
@@ -66,7 +71,7 @@ static fe__asset_use *find_use(const fe_world *world, int32_t asset)
 static int32_t is_used(const fe_world *world, int32_t asset)
 {
     const fe_store *store = world->store;
-    if (!fe__store_asset(store, asset)->scaled) return find_use(world, asset) != NULL;
+    if (!fe__store_asset(store, asset)->scaled) return fe__find_asset_use(world, asset) != NULL;
     for (int32_t i = 0; i < world->use_count; ++i)
         if (fe__store_parent(store, world->uses[i].asset)->index == asset) return 1;
     return 0;
@@ -117,7 +122,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
     if (!fe__form_has_asset(&shape->form)) return;
     int32_t asset = shape->form.field;
     fe__store_lock(world->store);
-    fe__asset_use *use = find_use(world, asset);
+    fe__asset_use *use = fe__find_asset_use(world, asset);
     if (!use) use = add_use(world, asset);
     shape->next_user = use->first_user;
     use->first_user = index;
@@ -130,7 +135,7 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
     const fe__shape *shape = world->shapes + index;
     if (!fe__form_has_asset(&shape->form)) return;
     fe__store_lock(world->store);
-    fe__asset_use *use = find_use(world, shape->form.field);
+    fe__asset_use *use = fe__find_asset_use(world, shape->form.field);
     int32_t *at = &use->first_user;
     while (*at != index) at = &world->shapes[*at].next_user;
     *at = shape->next_user;
@@ -201,7 +206,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
 
 static void renew_shapes(fe_world *world, int32_t asset, const fe__form *form, const fe__bounds *part)
 {
-    const fe__asset_use *use = find_use(world, asset);
+    const fe__asset_use *use = fe__find_asset_use(world, asset);
     for (int32_t shape = use ? use->first_user : -1; shape >= 0; shape = world->shapes[shape].next_user) {
         world->shapes[shape].form = *form;
         renew_pairs(world, shape, part);
@@ -213,6 +218,7 @@ void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *par
 {
     fe__heightfield *field = &fe__store_asset(store, asset)->field;
     fe__heightfield_write(field, part, heights);
+    fe__store_asset(store, asset)->is_keyed = 0;
     fe__form form = fe__heightfield_form(field, asset);
     fe__bounds changed = fe__samples_bounds(field, part);
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_shapes(m->world, asset, &form, &changed);

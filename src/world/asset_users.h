@@ -17,6 +17,10 @@ int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form);
 void fe__shape_take_asset(fe_world *world, int32_t shape);    // becomes a user of its form's, if it has one
 void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user of a destroyed one frees it
 
+void fe__world_release_assets(fe_world *world); // all of them, under the lock
+// The use of an asset, under the store's lock. NULL: no shape has it
+fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset);
+
 // ---- edits, under the store's lock ----------------------------------------------------------------------------------
 // Every world that uses the asset is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
 fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset);

@@ -42,8 +42,9 @@ void fe__joints_free(fe_world *world)
 }
 
 // ---- the constraint graph ------------------------------------------------------------------------------------------
-static int32_t acts(const fe_world *world, const fe__joint_record *r)
+int32_t fe__joint_acts(const fe_world *world, int32_t joint)
 {
+    const fe__joint_record *r = world->joint_records + joint;
     const fe__body *a = world->bodies + r->body[0], *b = world->bodies + r->body[1];
     return r->flags & FE__JOINT_ENABLED && a->flags & b->flags & FE__BODY_ENABLED &&
            (a->type == FE_BODY_DYNAMIC || b->type == FE_BODY_DYNAMIC);
@@ -52,7 +53,7 @@ static int32_t acts(const fe_world *world, const fe__joint_record *r)
 // A joint that does not act bears nothing
 static void link(fe_world *world, int32_t joint)
 {
-    if (!acts(world, world->joint_records + joint)) {
+    if (!fe__joint_acts(world, joint)) {
         fe__joint_forget_impulses(&world->joints, joint);
         return;
     }
@@ -173,7 +174,7 @@ static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan
     memcpy(axes->rotation.torque, old.rotation.torque, sizeof old.rotation.torque);
 }
 
-static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
+void fe__joint_fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
 {
     fe__joint_record *r = world->joint_records + joint;
     fe__joint *j = world->joints.joints + joint;
@@ -264,7 +265,7 @@ fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *d
     fe__joint_add_to_body(world, joint, bodies[0]);
     fe__joint_add_to_body(world, joint, bodies[1]);
     fe__joint_append_to_order(world, joint);
-    fill(world, joint, &plan);
+    fe__joint_fill(world, joint, &plan);
     link(world, joint);
     wake_bodies(world, bodies);
     fe__joint_awaken(world, joint);
@@ -286,7 +287,7 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
     wake_bodies(world, r->body); // those it held, and those it will hold
     unlink(world, joint);
     set_record(world, joint, def);
-    fill(world, joint, &plan);
+    fe__joint_fill(world, joint, &plan);
     link(world, joint);
     wake_bodies(world, r->body);
     if (parted != fe__joint_parts_bodies(r)) refilter(world, r, !parted);

@@ -13,6 +13,10 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
 void fe__joint_destroy(fe_world *world, int32_t joint);
 // Wakes nobody: within a step, which has reserved for those that it found awake
 void fe__joint_remove(fe_world *world, int32_t joint);
+// What the solver reads of it, by the plan of its settings; impulses and states go on where their parts do
+struct fe__joint_plan;
+void fe__joint_fill(fe_world *world, int32_t joint, const struct fe__joint_plan *plan);
+int32_t fe__joint_acts(const fe_world *world, int32_t joint); // 1: it is in the constraint graph, or is to be
 void fe__joint_describe(const fe_world *world, int32_t joint,
                         fe__joint_any *out_def);          // as it was set; struct_size is that of its type
 void fe__body_drop_joints(fe_world *world, int32_t body); // in the order of creation

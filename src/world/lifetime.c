@@ -145,14 +145,19 @@ static void free_events(fe_world *world)
     FE_FREE(memory, world->hit_events, world->hit_event_capacity);
 }
 
+void fe__world_free_state(fe_world *world)
+{
+    free_events(world);
+    free_broad_phase(world);
+    free_records(world);
+}
+
 void fe__world_destroy(fe_world *world)
 {
     fe__step_scratch_destroy(world);
     fe__solver_destroy(&world->solver, &world->memory);
-    free_events(world);
-    free_broad_phase(world);
     fe__world_close_store(world);
-    free_records(world);
+    fe__world_free_state(world);
     dismiss_workers(world);
     fe__memory memory = world->memory;
     fe__release(&memory, world, sizeof *world);

@@ -68,6 +68,16 @@ static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape
     return (swapped ? (uint32_t)FE__PAIR_SWAPPED : 0u) | (flipped ? (uint32_t)FE__PAIR_FLIPPED : 0u);
 }
 
+// What a pair is by its shapes and its number alone
+uint32_t fe__pair_nature(const fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
+{
+    const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
+    uint32_t flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
+    if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) flags |= FE__PAIR_SENSOR;
+    if (a->parent >= 0 || b->parent >= 0) flags |= FE__PAIR_OF_PARTS;
+    return number ? flags | FE__PAIR_PATCH : flags;
+}
+
 static int32_t take_slot(fe_world *world)
 {
     if (world->first_free_pair < 0) return world->pair_limit++;
@@ -87,10 +97,7 @@ static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, 
     memset(m, 0, sizeof *m);
     p->shape_a = shape_a, p->shape_b = shape_b;
     p->body_a = a->body, p->body_b = b->body;
-    p->flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
-    if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
-    if (a->parent >= 0 || b->parent >= 0) p->flags |= FE__PAIR_OF_PARTS;
-    if (number) p->flags |= FE__PAIR_PATCH;
+    p->flags = fe__pair_nature(world, shape_a, shape_b, number);
     p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
     m->colour = m->kind = -1;
     m->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;

@@ -16,6 +16,7 @@ static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, 
     return fe__form_is_field(&world->shapes[shape_a].form) || fe__form_is_field(&world->shapes[shape_b].form);
 }
 
+uint32_t fe__pair_nature(const fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number);
 fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
 // Exits of pairs that touched and ended since the last step: into the events of this one
 void fe__report_owed_exits(fe_world *world);

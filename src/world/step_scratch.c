@@ -1,6 +1,12 @@
 // step_scratch.c - see step_scratch.h.
 #include "world/step_scratch.h"
 
+int32_t fe__open_step_scratch(fe_world *world)
+{
+    if (!world->scratch) world->scratch = fe__allocate(&world->memory, sizeof *world->scratch);
+    return world->scratch != NULL;
+}
+
 void fe__step_scratch_destroy(fe_world *w)
 {
     fe__step_scratch *s = w->scratch;

@@ -64,6 +64,21 @@ void fe__colour_contact(fe__body *bodies, fe__contact *m)
     if (both) take_colour(a, m->colour);
 }
 
+static int32_t claim_colour(fe__body *body, int32_t colour)
+{
+    if (body->colours[colour / 64] >> colour % 64 & 1) return 0;
+    take_colour(body, colour);
+    return 1;
+}
+
+int32_t fe__recolour_contact(fe__body *bodies, const fe__contact *m)
+{
+    int32_t both = m->kind & FE__ROW_PAIR;
+    if (m->colour == FE__OVERFLOW_COLOUR) return 1;
+    if (both != (m->colour < FE__PAIR_COLOURS ? FE__ROW_PAIR : 0)) return 0;
+    return claim_colour(bodies + m->body_b, m->colour) && (!both || claim_colour(bodies + m->body_a, m->colour));
+}
+
 void fe__uncolour_contact(fe__body *bodies, fe__contact *m)
 {
     if (m->colour != FE__OVERFLOW_COLOUR) {

@@ -13,6 +13,7 @@ int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, cons
 int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *bound,
                           int32_t workers);
 void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input);
+void fe__graph_forget(fe__solver *s); // the next step builds it from nothing
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 
 #endif

@@ -243,6 +243,11 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->passes, s->pass_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
+    fe__graph_forget(s);
+}
+
+void fe__graph_forget(fe__solver *s)
+{
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
     s->built = (fe__built){.overflow = 0};
     s->graph_changed = 1;

@@ -61,6 +61,23 @@ void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint)
     joints->row_kinds |= j->rows & all_parts;
 }
 
+int32_t fe__joint_relink(fe__joints *joints, fe__body *bodies, int32_t joint)
+{
+    fe__joint *j = joints->joints + joint;
+    fe__body *ends[2];
+    if (j->rows != rows_of(j, joints->frames + joint, bodies + j->body_a, bodies + j->body_b)) return 0;
+    int32_t count = dynamic_ends(j, bodies, ends);
+    for (int32_t k = 0; k < count; ++k) {
+        uint32_t colour = j->colour == FE__JOINT_OVERFLOW ? 0 : 1u << j->colour;
+        if (ends[k]->joint_colours & colour) return 0;
+        ends[k]->joint_colours |= colour;
+        joints->most = fe__maxi(joints->most, fe__maxi(++ends[k]->joint_count, j->colour));
+    }
+    count_joint(joints, j, 1);
+    joints->row_kinds |= j->rows & all_parts;
+    return 1;
+}
+
 void fe__joint_unlink(fe__joints *joints, fe__body *bodies, int32_t joint)
 {
     fe__joint *j = joints->joints + joint;

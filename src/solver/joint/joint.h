@@ -168,6 +168,9 @@ typedef struct fe__joints {
 // they change, link after). The caller sets fe__solver.graph_changed. A joint of two bodies that are not dynamic is
 // never linked.
 void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint);
+// The same for one that has its colour and its rows already, from a snapshot. 0: they are not what its bodies, its
+// parts and the other joints let them be; it is of no use then
+int32_t fe__joint_relink(fe__joints *joints, fe__body *bodies, int32_t joint);
 void fe__joint_unlink(fe__joints *joints, fe__body *bodies, int32_t joint); // keeps its impulses
 void fe__joint_forget_impulses(fe__joints *joints, int32_t joint);
 

@@ -1,0 +1,348 @@
+// snapshot.c - the API of snapshots: a world as bytes, and back.
+#include "api/joint_def.h"
+#include "api/store.h"
+#include "api/world.h"
+#include "core/fp_state.h"
+#include "state/restore.h"
+#include "state/write.h"
+#include "store/asset_bytes.h"
+#include "world/joints.h"
+#include "world/lifetime.h"
+
+#include <string.h>
+
+#define FE_DEFINE_INIT(name, type, argument)                                \
+    void name(type *argument, uint32_t struct_size)                         \
+    {                                                                       \
+        type defaults = {.struct_size = sizeof defaults};                   \
+        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
+    }
+
+FE_DEFINE_INIT(fe_save_options_init, fe_save_options, options)
+FE_DEFINE_INIT(fe_restore_options_init, fe_restore_options, options)
+FE_DEFINE_INIT(fe_snapshot_info_init, fe_snapshot_info, info)
+
+// ---- assets --------------------------------------------------------------------------------------------------------
+
+fe_result fe_asset_get_key(const fe_store *store, fe_asset asset, fe_asset_key *out_key)
+{
+    FE_BEGIN_STORE(store);
+    FE_CHECK_POINTER(out_key);
+    int32_t index;
+    fe__store_lock(store);
+    fe_result result = fe__find_asset(function, "asset", store, asset, &index);
+    if (result == FE_OK) {
+        fe__asset_key key = fe__asset_key_of(store, index);
+        *out_key = (fe_asset_key){{key.words[0], key.words[1]}};
+    }
+    fe__store_unlock(store);
+    return result;
+}
+
+// ---- saving --------------------------------------------------------------------------------------------------------
+
+int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity)
+{
+    FE_READ(world);
+    FE_CHECK_INT(capacity, 0, INT64_MAX);
+    if (capacity > 0) FE_CHECK_POINTER(out);
+    fe_save_options full = {.struct_size = sizeof full};
+    if (options) FE_READ_STRUCT(options, &full);
+    FE_CHECK_BITS(full.flags, FE_SAVE_ASSETS);
+    int32_t with_assets = (full.flags & FE_SAVE_ASSETS) != 0;
+    fe__store_lock(world->store);
+    int32_t refused = with_assets && fe__snapshot_has_compounds(world);
+    int64_t size = refused ? 0 : fe__snapshot_size(world, with_assets);
+    if (!refused && size <= capacity) fe__snapshot_write(world, with_assets, out);
+    fe__store_unlock(world->store);
+    if (refused)
+        return fe__fail(function, FE_ERROR_UNSUPPORTED,
+                        "the world has compounds, whose contents no bytes hold: save it without FE_SAVE_ASSETS");
+    return size;
+}
+
+// ---- assets of a snapshot ------------------------------------------------------------------------------------------
+
+// Where they are: what the caller says, and what was in the bytes
+typedef struct known_assets {
+    fe__asset_key *keys;
+    int32_t *assets;
+    fe_asset *made; // of the store, from the bytes
+    int32_t count, made_count, capacity;
+} known_assets;
+
+static size_t known_size(const known_assets *k)
+{
+    return (size_t)k->capacity * (sizeof *k->keys + sizeof *k->assets + sizeof *k->made);
+}
+
+static fe_result open_known(const char *function, fe_world *world, int64_t capacity, known_assets *k)
+{
+    *k = (known_assets){.capacity = (int32_t)capacity};
+    if (capacity == 0) return FE_OK;
+    if (capacity > FE_ID_MAX_SLOTS) return fe__report(function, FE_ERROR_LIMIT);
+    k->keys = fe__allocate(&world->memory, known_size(k));
+    if (!k->keys) return fe__report(function, FE_ERROR_MEMORY);
+    k->made = (fe_asset *)(void *)(k->keys + capacity);
+    k->assets = (int32_t *)(void *)(k->made + capacity);
+    return FE_OK;
+}
+
+static fe_result take_given(const char *function, const fe_store *store, const fe_restore_options *options,
+                            known_assets *k)
+{
+    for (int32_t i = 0; i < options->asset_count; ++i, ++k->count) {
+        FE_TRY(fe__find_asset(function, "assets", store, options->assets[i], k->assets + i));
+        memcpy(k->keys + i, options->keys + i, sizeof *k->keys);
+    }
+    return FE_OK;
+}
+
+// What the store has already is not made again
+static fe_result make_asset(const char *function, fe_store *store, const unsigned char *bytes, int64_t size,
+                            known_assets *k)
+{
+    fe__cooked cooked;
+    fe_asset made;
+    fe_result result = fe__asset_read(store, bytes, size, &cooked, &made);
+    if (result == FE_ERROR_DATA || result == FE_ERROR_VERSION)
+        return fe__fail(function, result, "an asset inside: %s", cooked.sentence);
+    FE_TRY(fe__report(function, result));
+    fe__store_lock(store);
+    int32_t index = fe__id_slot_of(made);
+    fe__asset_key key = fe__asset_key_of(store, index);
+    int32_t first = fe__store_find_key(store, key, 0), is_new = first == index;
+    if (is_new)
+        k->made[k->made_count++] = made;
+    else
+        fe__asset_destroy(store, index);
+    k->keys[k->count] = key;
+    k->assets[k->count++] = first;
+    fe__store_unlock(store);
+    return FE_OK;
+}
+
+static fe_result make_assets(const char *function, fe_store *store, const fe__snapshot *snapshot, known_assets *k)
+{
+    int64_t at = snapshot->assets_at, size;
+    for (const unsigned char *bytes; (bytes = fe__next_asset_bytes(snapshot, &at, &size));)
+        FE_TRY(make_asset(function, store, bytes, size, k));
+    return FE_OK;
+}
+
+static void close_known(fe_world *world, known_assets *k, fe_result result)
+{
+    fe__store_lock(world->store);
+    for (int32_t i = 0; i < k->made_count && result < 0; ++i)
+        fe__asset_destroy(world->store, fe__id_slot_of(k->made[i]));
+    fe__store_unlock(world->store);
+    if (k->keys) fe__release(&world->memory, k->keys, known_size(k));
+}
+
+// ---- restoring -----------------------------------------------------------------------------------------------------
+
+static fe_result report_refusal(const char *function, const fe__build *build)
+{
+    const fe__snapshot *s = build->snapshot;
+    switch ((int)s->result) {
+    case FE_ERROR_DATA:
+    case FE_ERROR_VERSION:
+        return fe__fail(function, s->result, "%s", s->sentence);
+    case FE_ERROR_STATE:
+        return fe__fail(function, s->result, "the asset with the key %016llx %016llx is nowhere",
+                        (unsigned long long)build->missing.words[0], (unsigned long long)build->missing.words[1]);
+    default:
+        return fe__report(function, s->result);
+    }
+}
+
+// What the setters would refuse. The sentence is theirs
+static fe_result check_values(const char *function, const fe_world *w)
+{
+    if (fe__check_tuning(function, &w->tuning) != FE_OK) return FE_ERROR_DATA;
+    if (fe__check_vec3(function, "gravity", &w->gravity, FE_MAX_SPEED) != FE_OK) return FE_ERROR_DATA;
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) {
+        fe__joint_any def;
+        memset(&def, 0, sizeof def);
+        fe__joint_describe(w, joint, &def);
+        if (fe__check_joint_def(function, w->joint_records[joint].type, &def) != FE_OK) return FE_ERROR_DATA;
+    }
+    return FE_OK;
+}
+
+static fe_result exchange(const char *function, fe_world *world, fe__build *build, int32_t number)
+{
+    fe_world *beside = fe__allocate(&world->memory, sizeof *beside);
+    if (!beside) return fe__report(function, FE_ERROR_MEMORY);
+    fe_result result = FE_OK;
+    if (!fe__snapshot_prepare(build, world, beside, number)) result = report_refusal(function, build);
+    if (result == FE_OK) result = check_values(function, beside);
+    if (result == FE_OK) fe__snapshot_adopt(world, beside);
+    fe__snapshot_drop(world, beside);
+    fe__release(&world->memory, beside, sizeof *beside);
+    return result;
+}
+
+static fe_result read_options(const char *function, const fe_restore_options *options, fe_restore_options *full)
+{
+    *full = (fe_restore_options){.struct_size = sizeof *full};
+    if (!options) return FE_OK;
+    FE_READ_STRUCT(options, full);
+    FE_CHECK_BOOL(full->new_number);
+    FE_CHECK_ARRAY(full->keys, full->asset_count);
+    FE_CHECK_ARRAY(full->assets, full->asset_count);
+    FE_CHECK_INT(full->reserved, 0, 0);
+    return FE_OK;
+}
+
+static int32_t had_filter(const fe__snapshot *snapshot)
+{
+    fe__world_row row;
+    fe__take_row(snapshot, FE__TABLE_WORLD, 0, &row);
+    return row.has_filter;
+}
+
+static fe_result restore_opened(const char *function, fe_world *world, const fe_restore_options *options,
+                                fe__snapshot *snapshot)
+{
+    if (fe__rows_of(snapshot, FE__TABLE_WORLD) == 1 && had_filter(snapshot) && !world->pair_filter)
+        return fe__fail(function, FE_ERROR_STATE,
+                        "the saved world had a pair filter: set one, then restore the snapshot in that world");
+    known_assets known;
+    FE_TRY(open_known(function, world, (int64_t)options->asset_count + snapshot->asset_count, &known));
+    fe__store_lock(world->store);
+    fe_result result = take_given(function, world->store, options, &known);
+    fe__store_unlock(world->store);
+    if (result == FE_OK) result = make_assets(function, world->store, snapshot, &known);
+    fe__build build = {.snapshot = snapshot, .keys = known.keys, .assets = known.assets, .asset_count = known.count};
+    int32_t number = options->new_number ? world->number : snapshot->number;
+    if (result == FE_OK) result = exchange(function, world, &build, number);
+    close_known(world, &known, result);
+    return result != FE_OK || snapshot->results == FE__RESULTS ? result : FE_FOREIGN;
+}
+
+static fe_result open_bytes(const char *function, const void *bytes, int64_t size, fe__snapshot *snapshot)
+{
+    FE_CHECK_POINTER(bytes);
+    FE_CHECK_INT(size, 0, INT64_MAX);
+    if (fe__snapshot_open(snapshot, bytes, size)) return FE_OK;
+    return fe__fail(function, snapshot->result, "%s", snapshot->sentence);
+}
+
+static fe_result restore(const char *function, fe_world *world, const fe_restore_options *options, const void *bytes,
+                         int64_t size)
+{
+    fe_restore_options full;
+    fe__snapshot snapshot;
+    FE_TRY(read_options(function, options, &full));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = open_bytes(function, bytes, size, &snapshot);
+    if (result == FE_OK) result = restore_opened(function, world, &full, &snapshot);
+    fe__fp_leave(fp);
+    return result;
+}
+
+fe_result fe_world_restore(fe_world *world, const fe_restore_options *options, const void *bytes, int64_t size)
+{
+    FE_WRITE_ALONE(world);
+    return restore(function, world, options, bytes, size);
+}
+
+fe_result fe_world_load(const fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
+                        fe_world **out_world)
+{
+    FE_BEGIN_WITHOUT_WORLD();
+    fe_world *world;
+    FE_CHECK_POINTER(out_world);
+    FE_TRY(fe__create_world(function, def, &world));
+    fe_result result = restore(function, world, options, bytes, size);
+    if (result < 0)
+        fe__world_destroy(world);
+    else
+        *out_world = world;
+    return result;
+}
+
+// ---- without a world -----------------------------------------------------------------------------------------------
+
+static int32_t handled_slots(const fe__snapshot *snapshot, fe__table_number table)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < fe__rows_of(snapshot, table); ++i) {
+        fe__id_slot slot;
+        fe__take_row(snapshot, table, i, &slot);
+        count += slot.next == FE_ID_ALIVE;
+    }
+    return count;
+}
+
+static void tell(const fe__snapshot *snapshot, fe_snapshot_info *out_info)
+{
+    fe__world_row row;
+    fe__take_row(snapshot, FE__TABLE_WORLD, 0, &row);
+    fe_snapshot_info info = {.library = snapshot->version,
+                             .foreign = snapshot->results != FE__RESULTS,
+                             .number = (uint32_t)snapshot->number,
+                             .step = row.step_number,
+                             .bodies = fe__rows_of(snapshot, FE__TABLE_BODIES),
+                             .shapes = handled_slots(snapshot, FE__TABLE_SHAPE_SLOTS),
+                             .joints = fe__rows_of(snapshot, FE__TABLE_JOINTS),
+                             .assets = fe__rows_of(snapshot, FE__TABLE_ASSETS),
+                             .inside = snapshot->asset_count,
+                             .filter = row.has_filter};
+    fe__write_struct(out_info, &info, sizeof info);
+}
+
+static int32_t accept(void *user, const fe_filter_pair *pair)
+{
+    (void)user, (void)pair;
+    return 1;
+}
+
+// A world that nobody sees. An asset that is missing is no fault of the bytes: what rests on it stays unchecked
+static fe_result check_all(const char *function, fe__snapshot *snapshot)
+{
+    const fe_restore_options options = {.struct_size = sizeof options};
+    fe_world *world;
+    const fe_world_def def = {
+        .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_PLAIN, .number = 1};
+    FE_TRY(fe__create_world(function, &def, &world));
+    world->pair_filter = accept;
+    fe_result result = restore_opened(function, world, &options, snapshot);
+    fe__world_destroy(world);
+    return result == FE_ERROR_STATE ? FE_OK : result;
+}
+
+fe_result fe_snapshot_check(const void *bytes, int64_t size, fe_snapshot_info *out_info)
+{
+    FE_BEGIN_WITHOUT_WORLD();
+    fe__snapshot snapshot;
+    if (out_info) FE_CHECK_STRUCT_SIZE(out_info);
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = open_bytes(function, bytes, size, &snapshot);
+    int32_t number = result == FE_OK ? snapshot.number : 0;
+    if (result == FE_OK) result = check_all(function, &snapshot);
+    fe__fp_leave(fp);
+    if (result < 0) return result;
+    snapshot.number = number;
+    if (out_info) tell(&snapshot, out_info);
+    return snapshot.results == FE__RESULTS ? FE_OK : FE_FOREIGN;
+}
+
+int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *out_keys, uint32_t stride,
+                               int32_t capacity)
+{
+    FE_BEGIN_WITHOUT_WORLD();
+    fe__snapshot snapshot;
+    FE_CHECK_ARRAY(out_keys, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, sizeof(fe_asset_key), capacity);
+    FE_TRY(open_bytes(function, bytes, size, &snapshot));
+    int32_t count = fe__rows_of(&snapshot, FE__TABLE_ASSETS);
+    for (int32_t i = 0; i < fe__mini(count, capacity); ++i) {
+        fe__asset_row row;
+        fe__take_row(&snapshot, FE__TABLE_ASSETS, i, &row);
+        fe_asset_key key = {{row.key[0], row.key[1]}};
+        memcpy(fe__at(out_keys, stride, i), &key, sizeof key);
+    }
+    return count;
+}

@@ -1,0 +1,48 @@
+// build.h - from a snapshot to the arrays of a world: beside the world that is to become it, so that nothing changes
+// before everything is checked.
+//
+// What follows from the rest is made, not read: lists in the order of creation, sets, masks, counts, poses, the parts
+// of joints. What is read is compared with the invariants that the stages of a step rest on. So what is accepted can be
+// stepped, whoever wrote it.
+#ifndef FE_STATE_BUILD_H
+#define FE_STATE_BUILD_H
+#include "state/read.h"
+#include "store/asset_key.h"
+
+typedef struct fe__build {
+    fe__snapshot *snapshot;
+    fe_world *world;           // zeros, but for memory, store, number, kernels of its trees
+    const fe__asset_key *keys; // assets that are known by these, beside the store's
+    const int32_t *assets;     // their records
+    int32_t asset_count;
+    fe__asset_key missing; // with FE_ERROR_STATE: of the first that is not there
+} fe__build;
+
+// ---- the parts of a world, in this order: 0: refused, see snapshot->result
+// ---------------------------------------------------------------------------------------
+int32_t fe__build_slots(fe__build *build, const fe__world_row *row);
+int32_t fe__build_bodies(fe__build *build);
+int32_t fe__build_shapes(fe__build *build);
+int32_t fe__build_assets(fe__build *build); // under the store's lock
+int32_t fe__build_parts(fe__build *build);  // poses, and what compounds say of their parts
+int32_t fe__build_joints(fe__build *build);
+int32_t fe__build_trees(fe__build *build);
+int32_t fe__build_ignores(fe__build *build, const fe__world_row *row);
+int32_t fe__build_pairs(fe__build *build, const fe__world_row *row);
+int32_t fe__build_encounters(fe__build *build, const fe__world_row *row);
+int32_t fe__build_awake(fe__build *build);
+int32_t fe__build_events(fe__build *build);
+
+// ---- what they share
+// ------------------------------------------------------------------------------------------------- Slots of `count`
+// living records by their serials, which are written first. NULL: no memory, or two are the same; the caller releases 2
+// count items
+struct fe__sort_item *fe__sort_by_serial(fe__build *build, const char *what, struct fe__sort_item *items,
+                                         int32_t count);
+static inline fe__memory *fe__memory_of(const fe__build *build) { return &build->world->memory; }
+int32_t fe__lack_memory(const fe__build *build); // returns 0
+// A pool with so many records given ever, of which those of the table wait to be given again
+int32_t fe__build_pool(fe__build *build, fe__record_pool *pool, int32_t limit, fe__table_number free,
+                       fe__table_number used);
+
+#endif

@@ -1,0 +1,283 @@
+// build_pairs.c - pairs out of a snapshot: their slots, shapes, contacts, points, and the lists of the bodies.
+#include "state/build.h"
+
+#include "collision/manifold/patch.h"
+#include "solver/graph/colour.h"
+#include "world/pair_list.h"
+#include "world/pair_mix.h"
+#include "world/pairs.h"
+#include "world/points.h"
+
+#include <string.h>
+
+static int32_t refuse_pair(fe__build *b, int32_t pair, const char *why)
+{
+    return fe__snapshot_refuse(b->snapshot, "pair %d: %s", (int)pair, why);
+}
+
+// ---- slots: free, of an owed exit, or of a pair. fe__pair.result says which, until all are known --------------------
+enum { SLOT_UNKNOWN, SLOT_OF_NONE };
+
+static int32_t claim_slot(fe__build *b, int32_t slot, int32_t limit)
+{
+    if (slot < 1 || slot >= limit || b->world->pairs[slot].result != SLOT_UNKNOWN)
+        return fe__snapshot_refuse(b->snapshot, "pairs: slot %d is not free", (int)slot);
+    b->world->pairs[slot].result = SLOT_OF_NONE;
+    b->world->pairs[slot].flags = FE__PAIR_FREE;
+    return 1;
+}
+
+static int32_t take_free(fe__build *b, int32_t limit)
+{
+    fe_world *w = b->world;
+    for (int32_t i = fe__rows_of(b->snapshot, FE__TABLE_FREE_PAIRS) - 1; i >= 0; --i) {
+        int32_t slot = fe__listed_slot(b->snapshot, FE__TABLE_FREE_PAIRS, i);
+        if (!claim_slot(b, slot, limit)) return 0;
+        w->pairs[slot].links[0].next = w->first_free_pair;
+        w->first_free_pair = slot;
+    }
+    return 1;
+}
+
+static int32_t take_owed(fe__build *b, int32_t limit)
+{
+    fe_world *w = b->world;
+    for (int32_t i = fe__rows_of(b->snapshot, FE__TABLE_OWED) - 1; i >= 0; --i) {
+        fe__owed_row row;
+        memset(&row, 0, sizeof row);
+        fe__take_row(b->snapshot, FE__TABLE_OWED, i, &row);
+        if (!claim_slot(b, row.slot, limit)) return 0;
+        memcpy(w->contacts + row.slot, &row.exit, sizeof row.exit);
+        w->pairs[row.slot].links[0].next = w->first_owed;
+        w->first_owed = row.slot;
+        ++w->owed_count;
+    }
+    return 1;
+}
+
+// ---- one pair ------------------------------------------------------------------------------------------------------
+static int32_t is_in_broad_phase(const fe_world *w, int32_t shape)
+{
+    return shape < w->shape_ids.slot_count && w->shapes[shape].flags & (FE__SHAPE_IN_TREE | FE__SHAPE_IN_PLANES);
+}
+
+enum {
+    BY_NATURE = FE__PAIR_SENSOR | FE__PAIR_FLIPPED | FE__PAIR_SWAPPED | FE__PAIR_PATCH | FE__PAIR_OF_PARTS,
+    BY_STATE =
+        FE__PAIR_TOUCHING | FE__PAIR_LINKED | FE__PAIR_ONCE | FE__PAIR_CROSSED | FE__PAIR_DENIED | FE__PAIR_PASSING
+};
+
+static int32_t check_shapes(fe__build *b, int32_t pair)
+{
+    fe_world *w = b->world;
+    fe__pair *p = w->pairs + pair;
+    if (!is_in_broad_phase(w, p->shape_a) || !is_in_broad_phase(w, p->shape_b))
+        return refuse_pair(b, pair, "one of its shapes is not there");
+    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
+    if (x->serial >= y->serial || x->body == y->body || x->flags & y->flags & FE__SHAPE_IN_PLANES)
+        return refuse_pair(b, pair, "such shapes make none");
+    p->body_a = x->body, p->body_b = y->body;
+    if (w->bodies[p->body_a].type == FE_BODY_STATIC && w->bodies[p->body_b].type == FE_BODY_STATIC)
+        return refuse_pair(b, pair, "both bodies are static");
+    if (fe__form_is_field(&x->form) && fe__form_is_field(&y->form))
+        return refuse_pair(b, pair, "two surfaces of triangles never meet");
+    uint32_t number = p->flags >> FE__PAIR_NUMBER_SHIFT, known = (uint32_t)BY_NATURE | (uint32_t)BY_STATE;
+    if (number >= FE__PATCHES || p->flags << FE__PAIR_NUMBER_SHIFT >> FE__PAIR_NUMBER_SHIFT & ~known ||
+        (p->flags & ~(uint32_t)BY_STATE) != fe__pair_nature(w, p->shape_a, p->shape_b, (int32_t)number))
+        return refuse_pair(b, pair, "its flags are not those of its shapes");
+    return 1;
+}
+
+static int32_t is_triangle(const fe_store *store, const fe__form *form, int32_t triangle)
+{
+    const fe__asset *a = fe__store_asset(store, form->field);
+    if (a->kind == FE__ASSET_MESH)
+        return triangle < a->mesh.given_count && fe__mesh_slot(&a->mesh, triangle) < a->mesh.triangle_count;
+    int64_t cells = (int64_t)(a->field.rows - 1) * (a->field.columns - 1);
+    return triangle / 2 < cells && !fe__heightfield_is_hole(&a->field, triangle / 2);
+}
+
+static int32_t check_triangle(fe__build *b, int32_t pair)
+{
+    const fe_world *w = b->world;
+    const fe__pair *p = w->pairs + pair;
+    const fe__form *x = &w->shapes[p->shape_a].form, *y = &w->shapes[p->shape_b].form;
+    if (p->triangle < 0) return 1;
+    const fe__form *field = fe__form_is_field(x) ? x : fe__form_is_field(y) ? y : NULL;
+    return (field && is_triangle(w->store, field, p->triangle)) || refuse_pair(b, pair, "it is on no such triangle");
+}
+
+static int32_t check_contact(fe__build *b, int32_t pair)
+{
+    fe_world *w = b->world;
+    const fe__pair *p = w->pairs + pair;
+    fe__contact *m = w->contacts + pair;
+    int32_t flipped = (p->flags & FE__PAIR_FLIPPED) != 0, linked = (p->flags & FE__PAIR_LINKED) != 0;
+    m->body_a = flipped ? p->body_b : p->body_a, m->body_b = flipped ? p->body_a : p->body_b;
+    if (linked != (m->colour >= 0) || (linked && p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED)))
+        return refuse_pair(b, pair, "it is in the constraint graph without a colour, or the other way round");
+    if (linked && w->bodies[m->body_b].type != FE_BODY_DYNAMIC) return refuse_pair(b, pair, "nothing in it can move");
+    if (m->kind != fe__pair_kind(w, p->shape_a, p->shape_b) || !(w->row_kinds >> m->kind & 1))
+        return refuse_pair(b, pair, "its row is not of the kind of its shapes");
+    if (linked && !fe__recolour_contact(w->bodies, m)) return refuse_pair(b, pair, "its colour is taken");
+    return 1;
+}
+
+static int32_t take_pair(fe__build *b, int32_t pair, int32_t row)
+{
+    fe_world *w = b->world;
+    fe__pair *p = w->pairs + pair;
+    memset(p, 0, sizeof *p);
+    fe__take_row(b->snapshot, FE__TABLE_PAIRS, row, p);
+    fe__take_row(b->snapshot, FE__TABLE_CONTACTS, row, w->contacts + pair);
+    p->awake_index = -1;
+    if (!check_shapes(b, pair) || !check_triangle(b, pair) || !check_contact(b, pair)) return 0;
+    p->events = (uint16_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
+    int32_t colour = w->contacts[pair].colour, both = w->contacts[pair].kind & FE__ROW_PAIR;
+    // bounds that only grow: without a colour is what found all of them taken
+    if (colour == FE__OVERFLOW_COLOUR)
+        *(both ? &w->pair_colours : &w->static_colours) = both ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
+    if (colour >= 0 && colour < FE__PAIR_COLOURS) w->pair_colours = fe__maxi(w->pair_colours, colour + 1);
+    if (colour >= FE__PAIR_COLOURS && colour < FE__OVERFLOW_COLOUR)
+        w->static_colours = fe__maxi(w->static_colours, colour - FE__PAIR_COLOURS + 1);
+    w->linked_count += colour >= 0;
+    return 1;
+}
+
+// ---- heads and patches ---------------------------------------------------------------------------------------------
+static int32_t check_patches(fe__build *b, int32_t head)
+{
+    const fe_world *w = b->world;
+    const fe__pair *h = w->pairs + head;
+    int32_t number = 1, patch = h->next_patch;
+    for (; patch >= 0; patch = w->pairs[patch].next_patch, ++number) {
+        const fe__pair *p = w->pairs + patch;
+        if (patch >= w->pair_limit || number >= FE__PATCHES || p->flags & FE__PAIR_FREE || p->head != head ||
+            (int32_t)(p->flags >> FE__PAIR_NUMBER_SHIFT) != number || p->shape_a != h->shape_a ||
+            p->shape_b != h->shape_b)
+            return refuse_pair(b, head, "its patches are not its own");
+    }
+    int32_t has_patches = fe__is_field_pair(w, h->shape_a, h->shape_b) && !(h->flags & FE__PAIR_DENIED);
+    return number == (has_patches ? FE__PATCHES : 1) || refuse_pair(b, head, "it lacks patches");
+}
+
+static int32_t count_head(fe__build *b, int32_t head)
+{
+    fe_world *w = b->world;
+    const fe__pair *p = w->pairs + head;
+    if (!check_patches(b, head)) return 0;
+    if (p->head != -1) return refuse_pair(b, head, "it has a head");
+    if (fe__pair_set_find(&w->pair_set, p->shape_a, p->shape_b) >= 0)
+        return refuse_pair(b, head, "its shapes have another one");
+    fe__pair_set_insert(&w->pair_set, p->shape_a, p->shape_b, head);
+    int32_t contacts = p->next_patch >= 0 ? FE__PATCHES : 1;
+    const int32_t ends[2] = {p->body_a, p->body_b};
+    int32_t with_static = w->bodies[ends[0]].type == FE_BODY_STATIC || w->bodies[ends[1]].type == FE_BODY_STATIC;
+    for (int k = 0; k < 2; ++k)
+        w->bodies[ends[k]].contact_count += contacts, w->bodies[ends[k]].static_pairs += with_static;
+    ++w->pair_count;
+    w->field_pair_count += contacts > 1;
+    w->trigger_pair_count += (p->flags & FE__PAIR_SENSOR) != 0;
+    return 1;
+}
+
+static int32_t count_heads(fe__build *b, int32_t rows)
+{
+    const fe_world *w = b->world;
+    int32_t heads = 0;
+    if (!fe__pair_set_reserve(&b->world->pair_set, fe__memory_of(b), rows)) return fe__lack_memory(b);
+    for (int32_t pair = 1; pair < w->pair_limit; ++pair) {
+        if (w->pairs[pair].flags & (FE__PAIR_FREE | FE__PAIR_PATCH)) continue;
+        if (!count_head(b, pair)) return 0;
+        heads += w->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
+    }
+    return heads == rows || fe__snapshot_refuse(b->snapshot, "pairs: a patch has no head");
+}
+
+// ---- lists of bodies: heads, and the patches that are linked
+// ---------------------------------------------------------
+static int32_t is_listed(const fe__pair *p) { return !(p->flags & FE__PAIR_PATCH) || p->flags & FE__PAIR_LINKED; }
+
+// fe__link.previous is -2 until the link was met
+static int32_t follow_list(fe__build *b, int32_t body, int64_t *met)
+{
+    fe_world *w = b->world;
+    int32_t previous = -1;
+    for (int32_t pair = w->bodies[body].first_contact; pair >= 0;) {
+        if (pair == 0 || pair >= w->pair_limit || w->pairs[pair].flags & FE__PAIR_FREE || !is_listed(w->pairs + pair))
+            return fe__snapshot_refuse(b->snapshot, "body in slot %d: its list leads to no pair", (int)body);
+        fe__pair *p = w->pairs + pair;
+        fe__link *link = p->body_a == body ? p->links : p->links + 1;
+        if ((p->body_a != body && p->body_b != body) || link->previous != -2)
+            return fe__snapshot_refuse(b->snapshot, "body in slot %d: its list leads astray", (int)body);
+        link->previous = previous, previous = pair;
+        pair = link->next;
+        ++*met;
+    }
+    return 1;
+}
+
+static int32_t follow_lists(fe__build *b)
+{
+    fe_world *w = b->world;
+    int64_t met = 0, links = 0;
+    for (int32_t pair = 1; pair < w->pair_limit; ++pair) {
+        fe__pair *p = w->pairs + pair;
+        if (p->flags & FE__PAIR_FREE) continue;
+        p->links[0].previous = p->links[1].previous = is_listed(p) ? -2 : -1;
+        links += is_listed(p) ? 2 : 0;
+    }
+    for (int32_t body = 0; body < w->body_ids.slot_count; ++body)
+        if (w->body_ids.slots[body].next == FE_ID_ALIVE && !follow_list(b, body, &met)) return 0;
+    return met == links || fe__snapshot_refuse(b->snapshot, "pairs: one is in no list");
+}
+
+// ---- points --------------------------------------------------------------------------------------------------------
+static int32_t take_points(fe__build *b, const fe__world_row *row)
+{
+    fe_world *w = b->world;
+    fe__snapshot *s = b->snapshot;
+    int32_t rows = fe__rows_of(s, FE__TABLE_TOUCHING);
+    if (rows != fe__rows_of(s, FE__TABLE_POINTS) || rows != fe__rows_of(s, FE__TABLE_FEATURES) ||
+        fe__rows_of(s, FE__TABLE_EXTRAS) != (row->has_extras ? rows : 0))
+        return fe__snapshot_refuse(s, "points: tables of one thing have not as many rows");
+    for (int32_t i = 0; i < rows; ++i) {
+        int32_t pair = fe__listed_slot(s, FE__TABLE_TOUCHING, i), points = i + 1;
+        if (pair < 1 || pair >= w->pair_limit || w->pairs[pair].flags & FE__PAIR_FREE || w->contacts[pair].points)
+            return fe__snapshot_refuse(s, "points: there is no pair %d, or it has some already", (int)pair);
+        w->contacts[pair].points = points;
+        fe__take_row(s, FE__TABLE_POINTS, i, w->points + points);
+        fe__take_row(s, FE__TABLE_FEATURES, i, w->features + points);
+        if (row->has_extras) fe__take_row(s, FE__TABLE_EXTRAS, i, w->extras + points);
+        for (int32_t side = 0; side < 2; ++side) w->point_serials[2 * points + side] = fe__pair_serial(w, pair, side);
+    }
+    atomic_store(&w->point_count, rows + 1);
+    for (int32_t pair = 1; pair < w->pair_limit; ++pair) {
+        const fe__contact *m = w->contacts + pair;
+        if (w->pairs[pair].flags & FE__PAIR_FREE || m->points) continue;
+        if (m->colour >= 0 || m->point_count > 0.0f) return refuse_pair(b, pair, "its points are not there");
+    }
+    return 1;
+}
+
+int32_t fe__build_pairs(fe__build *b, const fe__world_row *row)
+{
+    fe_world *w = b->world;
+    fe__memory *memory = fe__memory_of(b);
+    int64_t rows = fe__rows_of(b->snapshot, FE__TABLE_PAIRS), limit = row->pair_limit;
+    if (rows != fe__rows_of(b->snapshot, FE__TABLE_CONTACTS) ||
+        limit != 1 + rows + fe__rows_of(b->snapshot, FE__TABLE_FREE_PAIRS) + fe__rows_of(b->snapshot, FE__TABLE_OWED))
+        return fe__snapshot_refuse(b->snapshot, "pairs: %lld rows do not fill %lld slots", (long long)rows,
+                                   (long long)limit);
+    if (!FE_RESERVE(memory, w->contacts, w->contact_capacity, limit) ||
+        !FE_RESERVE(memory, w->pairs, w->pair_capacity, limit) ||
+        !FE_RESERVE(memory, w->awake_pairs, w->awake_pair_capacity, limit) ||
+        !FE_RESERVE(memory, w->deferrals, w->deferral_capacity, limit) ||
+        !fe__points_reserve(w, fe__rows_of(b->snapshot, FE__TABLE_TOUCHING), row->has_extras))
+        return fe__lack_memory(b);
+    if (!take_free(b, (int32_t)limit) || !take_owed(b, (int32_t)limit)) return 0;
+    w->pair_limit = (int32_t)limit;
+    for (int32_t pair = 1, next = 0; pair < limit; ++pair)
+        if (w->pairs[pair].result == SLOT_UNKNOWN && !take_pair(b, pair, next++)) return 0;
+    return count_heads(b, (int32_t)rows) && follow_lists(b) && take_points(b, row);
+}

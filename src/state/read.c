@@ -1,0 +1,273 @@
+// read.c - see read.h.
+#include "state/read.h"
+
+#include "core/bytes.h"
+#include "state/sum.h"
+
+#include <float.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+int32_t fe__snapshot_refuse(fe__snapshot *s, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(s->sentence, sizeof s->sentence, format, arguments);
+    va_end(arguments);
+    s->result = FE_ERROR_DATA;
+    return 0;
+}
+
+int32_t fe__snapshot_fail(fe__snapshot *s, fe_result result)
+{
+    s->result = result;
+    return 0;
+}
+
+// ---- header --------------------------------------------------------------------------------------------------------
+static int32_t read_header(fe__snapshot *s)
+{
+    const unsigned char *at = s->bytes + sizeof fe__snapshot_magic;
+    if (s->size < FE__SNAPSHOT_HEADER)
+        return fe__snapshot_refuse(s, "there are %lld bytes, a header has %d", (long long)s->size, FE__SNAPSHOT_HEADER);
+    if (memcmp(s->bytes, fe__snapshot_magic, sizeof fe__snapshot_magic))
+        return fe__snapshot_refuse(s, "these are no bytes of fe_world_save");
+    uint32_t major = fe__take_u16(&at);
+    (void)fe__take_u16(&at);
+    if (major > FE__SNAPSHOT_MAJOR) {
+        fe__snapshot_refuse(s, "format %u is of a newer library", (unsigned)major);
+        return fe__snapshot_fail(s, FE_ERROR_VERSION);
+    }
+    if (major == 0) return fe__snapshot_refuse(s, "byte %d: 0 is no format", FE__AT_MAJOR);
+    s->results = fe__take_u32(&at), s->version = fe__take_u32(&at);
+    s->number = (int32_t)fe__take_u32(&at);
+    uint64_t size = fe__take_u64(&at);
+    if (size != (uint64_t)s->size || s->size % 8)
+        return fe__snapshot_refuse(s, "byte %d: there are %lld bytes, fe_world_save wrote %llu", FE__AT_SIZE,
+                                   (long long)s->size, (unsigned long long)size);
+    if (s->number < 1 || s->number > FE_ID_LAST_NUMBER)
+        return fe__snapshot_refuse(s, "byte %d: the world's number is %ld, must be 1..%d", FE__AT_NUMBER,
+                                   (long)s->number, FE_ID_LAST_NUMBER);
+    return 1;
+}
+
+// ---- columns -------------------------------------------------------------------------------------------------------
+static double number_at(const fe__field *field, const unsigned char *at)
+{
+    switch ((fe__field_kind)field->kind) {
+    case FE__U8:
+        return fe__take_u8(&at);
+    case FE__U16:
+        return fe__take_u16(&at);
+    case FE__I16:
+        return (int16_t)fe__take_u16(&at);
+    case FE__U32:
+        return fe__take_u32(&at);
+    case FE__I32:
+        return fe__take_i32(&at);
+    case FE__F32:
+        return (double)fe__take_float(&at);
+    default:
+        break;
+    }
+    union {
+        uint64_t bits;
+        double value;
+    } word = {fe__take_u64(&at)};
+    return word.value; // of doubles alone: what else has 64 bits may be anything
+}
+
+static int32_t is_whole(double x) { return x == (double)(int64_t)x; }
+
+// A NaN is within nothing
+static int32_t is_within(const fe__field *field, const unsigned char *at)
+{
+    const fe__range *range = fe__ranges + field->range;
+    double x = number_at(field, at);
+    if (!__builtin_isfinite(x)) return 0;
+    int32_t must_be_whole = field->range == FE__RANGE_LOCKS || field->range == FE__RANGE_COUNT;
+    double high = field->kind == FE__F64 ? DBL_MAX : range->high;
+    return x >= (field->kind == FE__F64 ? -DBL_MAX : range->low) && x <= high && (!must_be_whole || is_whole(x));
+}
+
+// Most of a snapshot: without a branch for each
+static int32_t are_finite(const unsigned char *at, int64_t count)
+{
+    const uint32_t exponent = 0x7f800000u;
+    uint32_t some = 0;
+    for (int64_t i = 0; i < count; ++i) some |= (fe__take_u32(&at) & exponent) == exponent;
+    return !some;
+}
+
+static int32_t check_field(fe__snapshot *s, const fe__table *table, const fe__field *field, const unsigned char *column,
+                           int32_t rows)
+{
+    uint32_t size = fe__kind_size(field->kind);
+    int64_t numbers = (int64_t)rows * field->count;
+    if (field->range == FE__RANGE_ANY) return 1;
+    if (field->range == FE__RANGE_FINITE && field->kind == FE__F32 && are_finite(column, numbers)) return 1;
+    for (int64_t i = 0; i < numbers; ++i) {
+        const unsigned char *at = column + i * size;
+        if (is_within(field, at)) continue;
+        return fe__snapshot_refuse(s, "byte %lld, %s, row %lld: %s is %.9g", (long long)(at - s->bytes), table->name,
+                                   (long long)(i / field->count), field->name, number_at(field, at));
+    }
+    return 1;
+}
+
+static int32_t check_columns(fe__snapshot *s, const fe__table *table, const fe__view *view)
+{
+    const unsigned char *column = view->columns;
+    for (int32_t f = 0; f < table->field_count; ++f) {
+        if (!check_field(s, table, table->fields + f, column, view->rows)) return 0;
+        column += (int64_t)view->rows * fe__field_size(table->fields + f);
+    }
+    return 1;
+}
+
+// ---- sections ------------------------------------------------------------------------------------------------------
+typedef struct section {
+    uint32_t type, version, flags;
+    const unsigned char *content;
+    int64_t size;
+    uint64_t sum;
+} section;
+
+static int32_t read_section(fe__snapshot *s, int64_t at, section *out)
+{
+    if (s->size - at < FE__SECTION_HEADER) return fe__snapshot_refuse(s, "byte %lld: a section is cut", (long long)at);
+    const unsigned char *in = s->bytes + at;
+    out->type = fe__take_u32(&in), out->version = fe__take_u16(&in), out->flags = fe__take_u16(&in);
+    uint64_t size = fe__take_u64(&in);
+    out->sum = fe__take_u64(&in);
+    out->content = in;
+    out->size = (int64_t)size;
+    if (size % 8 || size > (uint64_t)(s->bytes + s->size - in))
+        return fe__snapshot_refuse(s, "byte %lld: section %u is cut", (long long)at, (unsigned)out->type);
+    if (out->sum != fe__sum_of(in, out->size))
+        return fe__snapshot_refuse(s, "byte %lld: section %u was altered", (long long)at, (unsigned)out->type);
+    return 1;
+}
+
+static int32_t read_table(fe__snapshot *s, const section *in, uint32_t number)
+{
+    const fe__table *table = fe__tables + number;
+    const unsigned char *at = in->content;
+    int64_t where = at - s->bytes;
+    if (in->type != number || in->version != 1)
+        return fe__snapshot_refuse(s, "byte %lld: section %u, version %u stands where %s must be", (long long)where,
+                                   (unsigned)in->type, (unsigned)in->version, table->name);
+    uint64_t rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
+    if (rows > INT32_MAX || fe__padded(FE__SECTION_ROWS + (int64_t)rows * fe__row_size(table)) != in->size)
+        return fe__snapshot_refuse(s, "byte %lld: %s has %lld bytes, which are not those of %llu rows",
+                                   (long long)where, table->name, (long long)in->size, (unsigned long long)rows);
+    s->tables[number] = (fe__view){at, (int32_t)rows, (int32_t)number};
+    return check_columns(s, table, s->tables + number);
+}
+
+static int32_t read_sections(fe__snapshot *s)
+{
+    const unsigned char *header = s->bytes + FE__AT_SUM;
+    uint64_t told = fe__take_u64(&header), sum = 0;
+    uint32_t count = fe__take_u32(&header);
+    int64_t at = FE__SNAPSHOT_HEADER;
+    if (count < FE__TABLES)
+        return fe__snapshot_refuse(s, "byte %d: %u sections are too few", FE__AT_SECTIONS, (unsigned)count);
+    for (uint32_t i = 0; i < count; ++i) {
+        section in = {0};
+        if (!read_section(s, at, &in)) return 0;
+        if (i < FE__TABLES && !read_table(s, &in, i)) return 0;
+        if (i >= FE__TABLES && in.type == FE__SECTION_ASSET) {
+            if (!s->asset_count++) s->assets_at = at;
+        } else if (i >= FE__TABLES && !(in.flags & FE__SECTION_MAY_SKIP))
+            return fe__snapshot_refuse(s, "byte %lld: section %u is unknown", (long long)at, (unsigned)in.type);
+        sum = fe__join_sums(sum, in.sum);
+        at = in.content - s->bytes + in.size;
+    }
+    if (at != s->size) return fe__snapshot_refuse(s, "byte %lld: something stands behind the sections", (long long)at);
+    if (told != fe__join_sums(sum, fe__header_sum(s->bytes)))
+        return fe__snapshot_refuse(s, "byte %d: the sum is not that of the bytes: they were altered", FE__AT_SUM);
+    return 1;
+}
+
+int32_t fe__snapshot_open(fe__snapshot *s, const void *bytes, int64_t size)
+{
+    *s = (fe__snapshot){.bytes = bytes, .size = size};
+    return read_header(s) && read_sections(s);
+}
+
+// ---- rows ----------------------------------------------------------------------------------------------------------
+static void take_number(const unsigned char *at, uint32_t size, unsigned char *out)
+{
+    uint8_t byte;
+    uint16_t half;
+    uint32_t word;
+    uint64_t two;
+    switch (size) {
+    case sizeof byte:
+        byte = fe__take_u8(&at);
+        memcpy(out, &byte, sizeof byte);
+        return;
+    case sizeof half:
+        half = fe__take_u16(&at);
+        memcpy(out, &half, sizeof half);
+        return;
+    case sizeof word:
+        word = fe__take_u32(&at);
+        memcpy(out, &word, sizeof word);
+        return;
+    default:
+        two = fe__take_u64(&at);
+        memcpy(out, &two, sizeof two);
+    }
+}
+
+static void take_name(const fe__snapshot *s, const unsigned char *at, unsigned char *out)
+{
+    fe_handle handle = fe__take_u64(&at);
+    if (handle) handle |= (fe_handle)(uint32_t)s->number << FE_ID_NUMBER_SHIFT;
+    memcpy(out, &handle, sizeof handle);
+}
+
+void fe__take_row(const fe__snapshot *s, fe__table_number number, int32_t row, void *record)
+{
+    const fe__table *table = fe__tables + number;
+    const fe__view *view = s->tables + number;
+    const unsigned char *column = view->columns;
+    for (int32_t f = 0; f < table->field_count; ++f) {
+        const fe__field *field = table->fields + f;
+        uint32_t size = fe__kind_size(field->kind), all = fe__field_size(field);
+        const unsigned char *at = column + (int64_t)row * all;
+        unsigned char *out = (unsigned char *)record + field->offset;
+        int32_t is_copied = FE_IS_LITTLE_ENDIAN && field->kind != FE__NAME;
+        if (is_copied) memcpy(out, at, all);
+        for (uint32_t i = 0; i < field->count && !is_copied; ++i, at += size, out += size) {
+            if (field->kind == FE__NAME)
+                take_name(s, at, out);
+            else
+                take_number(at, size, out);
+        }
+        column += (int64_t)view->rows * all;
+    }
+}
+
+int32_t fe__listed_slot(const fe__snapshot *s, fe__table_number number, int32_t row)
+{
+    fe__slot_row entry;
+    fe__take_row(s, number, row, &entry);
+    return entry.slot;
+}
+
+const unsigned char *fe__next_asset_bytes(const fe__snapshot *s, int64_t *at, int64_t *out_size)
+{
+    while (*at && *at < s->size) {
+        const unsigned char *in = s->bytes + *at;
+        uint32_t type = fe__take_u32(&in);
+        in += sizeof(uint32_t);
+        *out_size = (int64_t)fe__take_u64(&in);
+        in += sizeof(uint64_t);
+        *at = in - s->bytes + *out_size;
+        if (type == FE__SECTION_ASSET) return in;
+    }
+    return NULL;
+}

@@ -1,0 +1,91 @@
+// restore.c - see restore.h.
+#include "state/restore.h"
+
+#include "solver/graph/graph.h"
+#include "state/assemble.h"
+#include "world/asset_users.h"
+#include "world/lifetime.h"
+#include "world/step_scratch.h"
+
+#include <string.h>
+
+int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, int32_t number)
+{
+    if (!fe__open_step_scratch(world)) return fe__snapshot_fail(b->snapshot, FE_ERROR_MEMORY);
+    beside->memory = world->memory;
+    beside->store = world->store;
+    beside->number = number;
+    beside->static_tree.kernels = world->static_tree.kernels;
+    beside->moving_tree.kernels = world->moving_tree.kernels;
+    b->world = beside;
+    b->snapshot->number = number; // in the handles of its events
+    return fe__build_world(b);
+}
+
+// ---- the exchange --------------------------------------------------------------------------------------------------
+// Members of fe_world that are state, from one to another. What lies between them is not: memory, workers, who is
+// inside, filter, kernels, store, clusters, solver, scratch, measures
+typedef struct range {
+    size_t first, end;
+} range;
+#define RANGE(from, to)                                                                \
+    {                                                                                  \
+        offsetof(fe_world, from), offsetof(fe_world, to) + sizeof(((fe_world *)0)->to) \
+    }
+static const range ranges[] = {
+    RANGE(user_data, number),
+    RANGE(gravity, tuning),
+    RANGE(body_ids, shape_capacity),
+    RANGE(uses, use_capacity),
+    RANGE(next_serial, swiftest),
+    RANGE(pair_set, joint_events),
+    RANGE(joint_event_count, joint_event_capacity),
+    RANGE(step_number, last_dt),
+};
+
+static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)
+{
+    enum { PIECE = 256 };
+    unsigned char held[PIECE];
+    for (size_t at = 0; at < size; at += PIECE) {
+        size_t piece = size - at < PIECE ? size - at : PIECE;
+        memcpy(held, a + at, piece);
+        memcpy(a + at, b + at, piece);
+        memcpy(b + at, held, piece);
+    }
+}
+
+// Another thread may have edited an asset since the forms were taken: nobody entered this world for it
+static void renew_forms(fe_world *w)
+{
+    for (int32_t i = 0; i < w->use_count; ++i) {
+        const fe__form form = fe__asset_form(w->store, w->uses[i].asset);
+        for (int32_t slot = w->uses[i].first_user; slot >= 0; slot = w->shapes[slot].next_user)
+            w->shapes[slot].form = form;
+    }
+}
+
+void fe__snapshot_adopt(fe_world *world, fe_world *beside)
+{
+    fe__store_lock(world->store);
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; ++i)
+        swap_bytes((unsigned char *)world + ranges[i].first, (unsigned char *)beside + ranges[i].first,
+                   ranges[i].end - ranges[i].first);
+    renew_forms(world);
+    fe__store_unlock(world->store);
+    world->solver.burdened = beside->solver.burdened;
+    world->solver.unbuilt = world->awake_linked_count;
+    fe__graph_forget(&world->solver);
+    world->clusters.is_stale = 1;
+    atomic_store(&world->scratch->some_deferred, 1);
+}
+
+void fe__snapshot_drop(fe_world *world, fe_world *beside)
+{
+    fe__store_lock(world->store);
+    fe__world_release_assets(beside);
+    fe__store_unlock(world->store);
+    fe__world_free_state(beside);
+    world->memory.bytes = beside->memory.bytes;
+    world->memory.allocations = beside->memory.allocations;
+}

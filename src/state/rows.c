@@ -1,0 +1,196 @@
+// rows.c - see rows.h: the world, its slots, and what has a slot: bodies, shapes, joints.
+#include "state/rows.h"
+
+#include "collision/form/sound.h"
+#include "store/asset_key.h"
+#include "world/asset_users.h"
+
+// ---- lists that are arrays: rows in their order ---------------------------------------------------------------------
+#define ARRAY_ROWS(rows, length)                                       \
+    int32_t fe__count_##rows(const fe_world *world) { return length; } \
+    int32_t fe__next_##rows(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+#define ARRAY_RECORDS(rows, record)                                               \
+    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room) \
+    {                                                                             \
+        (void)room;                                                               \
+        return record;                                                            \
+    }
+
+static const void *listed(int32_t slot, void *room)
+{
+    *(fe__slot_row *)room = (fe__slot_row){slot};
+    return room;
+}
+
+// ---- the world ------------------------------------------------------------------------------------------------------
+int32_t fe__count_world(const fe_world *world) { return (void)world, 1; }
+int32_t fe__next_world(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+const void *fe__world_at(const fe_world *world, int32_t place, void *room)
+{
+    (void)place;
+    *(fe__world_row *)room = (fe__world_row){.user_data = world->user_data,
+                                             .next_serial = world->next_serial,
+                                             .step_number = world->step_number,
+                                             .gravity = world->gravity,
+                                             .substeps = world->substeps,
+                                             .last_h = world->last_h,
+                                             .last_dt = world->last_dt,
+                                             .row_kinds = world->row_kinds,
+                                             .pair_limit = world->pair_limit,
+                                             .pair_colours = world->pair_colours,
+                                             .static_colours = world->static_colours,
+                                             .has_extras = world->extra_capacity > 0,
+                                             .has_filter = world->pair_filter != NULL,
+                                             .joint_row_kinds = world->joints.row_kinds,
+                                             .most_joints = world->joints.most,
+                                             .ignore_limit = world->ignores.limit,
+                                             .encounter_limit = world->encounters.limit,
+                                             .free_slots = {world->body_ids.free_head, world->shape_ids.free_head,
+                                                            world->joint_ids.free_head},
+                                             .tuning = world->tuning};
+    return room;
+}
+
+// ---- slots ----------------------------------------------------------------------------------------------------------
+ARRAY_ROWS(body_slots, world->body_ids.slot_count)
+ARRAY_RECORDS(body_slots, world->body_ids.slots + place)
+ARRAY_ROWS(shape_slots, world->shape_ids.slot_count)
+ARRAY_RECORDS(shape_slots, world->shape_ids.slots + place)
+ARRAY_ROWS(joint_slots, world->joint_ids.slot_count)
+ARRAY_RECORDS(joint_slots, world->joint_ids.slots + place)
+
+// The next slot in use, with a handle, or hidden
+static int32_t next_slot(const fe__id_pool *pool, int32_t slot, int32_t with_hidden)
+{
+    for (++slot; slot < pool->slot_count; ++slot)
+        if (pool->slots[slot].next == FE_ID_ALIVE || (with_hidden && pool->slots[slot].next == FE_ID_HIDDEN)) break;
+    return slot;
+}
+
+// ---- bodies: anchors are their joints'
+// -------------------------------------------------------------------------------
+#define SLOT_ROWS(rows, length, pool, with_hidden)                     \
+    int32_t fe__count_##rows(const fe_world *world) { return length; } \
+    int32_t fe__next_##rows(const fe_world *world, int32_t place)      \
+    {                                                                  \
+        return next_slot(&world->pool, place, with_hidden);            \
+    }
+
+SLOT_ROWS(bodies, world->body_count, body_ids, 0)
+ARRAY_RECORDS(bodies, world->bodies + place)
+SLOT_ROWS(drifts, world->body_count, body_ids, 0)
+ARRAY_RECORDS(drifts, world->drifts + place)
+
+// ---- shapes: with the parts of compounds
+// -----------------------------------------------------------------------------
+SLOT_ROWS(shapes, world->shape_count, shape_ids, 1)
+ARRAY_RECORDS(shapes, world->shapes + place)
+SLOT_ROWS(forms, world->shape_count, shape_ids, 1)
+const void *fe__forms_at(const fe_world *world, int32_t place, void *room)
+{
+    *(fe__form_numbers *)room = fe__numbers_of_form(&world->shapes[place].form);
+    return room;
+}
+
+static int32_t is_first_user(const fe_world *world, int32_t shape)
+{
+    const fe__form *form = &world->shapes[shape].form;
+    return fe__form_has_asset(form) && fe__find_asset_use(world, form->field)->first_user == shape;
+}
+
+int32_t fe__count_assets(const fe_world *world) { return world->use_count; }
+int32_t fe__next_assets(const fe_world *world, int32_t place)
+{
+    do place = next_slot(&world->shape_ids, place, 1);
+    while (place < world->shape_ids.slot_count && !is_first_user(world, place));
+    return place;
+}
+const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
+{
+    int32_t index = world->shapes[place].form.field;
+    const fe__asset *parent = fe__store_parent(world->store, index);
+    fe__asset_key key = fe__asset_key_of(world->store, parent->index);
+    *(fe__asset_row *)room = (fe__asset_row){
+        {key.words[0], key.words[1]}, fe__store_asset(world->store, index)->scale, place, parent->kind, parent->handle};
+    return room;
+}
+
+// ---- joints: joint i has slot i - 1
+// -----------------------------------------------------------------------------------
+#define JOINT_ROWS(rows, record)                      \
+    SLOT_ROWS(rows, world->joint_count, joint_ids, 0) \
+    ARRAY_RECORDS(rows, record)
+
+JOINT_ROWS(joints, world->joint_records + place + 1)
+JOINT_ROWS(joint_anchors, world->joints.joints + place + 1)
+JOINT_ROWS(joint_frames, world->joints.frames + place + 1)
+JOINT_ROWS(joint_reactions, world->joints.reactions + place + 1)
+
+static int32_t live_records(const fe__record_pool *pool) { return pool->limit - 1 - pool->free_count; }
+
+static int32_t next_of_type(const fe_world *world, int32_t place, int32_t type)
+{
+    do place = next_slot(&world->joint_ids, place, 0);
+    while (place < world->joint_ids.slot_count && world->joint_records[place + 1].type != type);
+    return place;
+}
+
+#define TYPE_ROWS(rows, number)                                                                                  \
+    int32_t fe__count_##rows(const fe_world *world) { return live_records(world->joint_settings + number); }     \
+    int32_t fe__next_##rows(const fe_world *world, int32_t place) { return next_of_type(world, place, number); } \
+    ARRAY_RECORDS(rows, fe__record(world->joint_settings + number, world->joint_records[place + 1].settings))
+
+TYPE_ROWS(distance_joints, FE_JOINT_DISTANCE)
+TYPE_ROWS(ball_joints, FE_JOINT_BALL)
+TYPE_ROWS(hinge_joints, FE_JOINT_HINGE)
+TYPE_ROWS(fixed_joints, FE_JOINT_FIXED)
+TYPE_ROWS(configurable_joints, FE_JOINT_CONFIGURABLE)
+
+int32_t fe__count_joint_axes(const fe_world *world) { return live_records(&world->joint_axes); }
+int32_t fe__next_joint_axes(const fe_world *world, int32_t place)
+{
+    do place = next_slot(&world->joint_ids, place, 0);
+    while (place < world->joint_ids.slot_count && !world->joints.frames[place + 1].axes);
+    return place;
+}
+ARRAY_RECORDS(joint_axes, world->joints.axes + world->joints.frames[place + 1].axes)
+
+// ---- who is awake, planes
+// ----------------------------------------------------------------------------------------------
+ARRAY_ROWS(awake_bodies, world->awake_body_count)
+ARRAY_RECORDS(awake_bodies, listed(world->awake_bodies[place], room))
+ARRAY_ROWS(awake_joints, world->awake_joint_count)
+ARRAY_RECORDS(awake_joints, listed(world->awake_joints[place], room))
+ARRAY_ROWS(planes, world->plane_count)
+ARRAY_RECORDS(planes, listed(world->planes[place], room))
+
+// ---- events
+// ------------------------------------------------------------------------------------------------------------
+ARRAY_ROWS(pair_events, world->pair_event_count)
+ARRAY_RECORDS(pair_events, world->pair_events + place)
+ARRAY_ROWS(body_events, world->body_event_count)
+ARRAY_RECORDS(body_events, world->body_events + place)
+ARRAY_ROWS(hit_events, world->hit_event_count)
+ARRAY_RECORDS(hit_events, world->hit_events + place)
+ARRAY_ROWS(joint_events, world->joint_event_count)
+ARRAY_RECORDS(joint_events, world->joint_events + place)
+
+// ---- trees
+// -------------------------------------------------------------------------------------------------------------
+ARRAY_ROWS(static_nodes, world->static_tree.node_count)
+ARRAY_RECORDS(static_nodes, world->static_tree.nodes + place)
+ARRAY_ROWS(moving_nodes, world->moving_tree.node_count)
+ARRAY_RECORDS(moving_nodes, world->moving_tree.nodes + place)
+
+int32_t fe__count_trees(const fe_world *world) { return (void)world, FE_TREES; }
+int32_t fe__next_trees(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+// Free nodes decide how the next proxy comes in. Beyond these the tree has room whatever comes
+const void *fe__trees_at(const fe_world *world, int32_t place, void *room)
+{
+    enum { FREE_NODES = 4096, PER_NODE = 4 };
+    fe__tree *tree = room;
+    *tree = place ? world->moving_tree : world->static_tree;
+    int64_t most = (int64_t)PER_NODE * tree->node_count + FREE_NODES + tree->promised;
+    tree->node_capacity = (int32_t)fe__minl(tree->node_capacity, most);
+    return room;
+}

@@ -1,0 +1,55 @@
+// rows.h - which records of a world are rows of which table.
+#ifndef FE_STATE_ROWS_H
+#define FE_STATE_ROWS_H
+#include "state/table.h"
+
+#define FE__DECLARE_ROWS(rows)                                     \
+    int32_t fe__count_##rows(const fe_world *world);               \
+    int32_t fe__next_##rows(const fe_world *world, int32_t place); \
+    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room);
+
+FE__DECLARE_ROWS(world)
+FE__DECLARE_ROWS(body_slots)
+FE__DECLARE_ROWS(shape_slots)
+FE__DECLARE_ROWS(joint_slots)
+FE__DECLARE_ROWS(bodies)
+FE__DECLARE_ROWS(drifts)
+FE__DECLARE_ROWS(shapes)
+FE__DECLARE_ROWS(forms)
+FE__DECLARE_ROWS(assets)
+FE__DECLARE_ROWS(joints)
+FE__DECLARE_ROWS(distance_joints)
+FE__DECLARE_ROWS(ball_joints)
+FE__DECLARE_ROWS(hinge_joints)
+FE__DECLARE_ROWS(fixed_joints)
+FE__DECLARE_ROWS(configurable_joints)
+FE__DECLARE_ROWS(joint_anchors)
+FE__DECLARE_ROWS(joint_frames)
+FE__DECLARE_ROWS(joint_reactions)
+FE__DECLARE_ROWS(joint_axes)
+FE__DECLARE_ROWS(pairs)
+FE__DECLARE_ROWS(contacts)
+FE__DECLARE_ROWS(touching)
+FE__DECLARE_ROWS(points)
+FE__DECLARE_ROWS(features)
+FE__DECLARE_ROWS(extras)
+FE__DECLARE_ROWS(free_pairs)
+FE__DECLARE_ROWS(owed)
+FE__DECLARE_ROWS(awake_bodies)
+FE__DECLARE_ROWS(awake_pairs)
+FE__DECLARE_ROWS(deferrals)
+FE__DECLARE_ROWS(awake_joints)
+FE__DECLARE_ROWS(planes)
+FE__DECLARE_ROWS(ignores)
+FE__DECLARE_ROWS(free_ignores)
+FE__DECLARE_ROWS(encounters)
+FE__DECLARE_ROWS(free_encounters)
+FE__DECLARE_ROWS(pair_events)
+FE__DECLARE_ROWS(body_events)
+FE__DECLARE_ROWS(hit_events)
+FE__DECLARE_ROWS(joint_events)
+FE__DECLARE_ROWS(trees)
+FE__DECLARE_ROWS(static_nodes)
+FE__DECLARE_ROWS(moving_nodes)
+
+#endif

@@ -1,0 +1,292 @@
+// tables.c - the one table of fields: what of each record is state, and what is made anew.
+//
+// Whoever adds a member to a record adds a line here: the assertion behind each list counts bytes.
+#include "state/table.h"
+
+#include "collision/form/sound.h"
+#include "state/rows.h"
+#include "world/encounter.h"
+
+#include <float.h>
+
+const fe__range fe__ranges[FE__RANGES] = {
+    [FE__RANGE_ANY] = {0.0, 0.0},
+    [FE__RANGE_FINITE] = {-(double)FLT_MAX, (double)FLT_MAX},
+    [FE__RANGE_POSITIVE] = {0.0, (double)FLT_MAX},
+    [FE__RANGE_UNIT] = {-1.001, 1.001},
+    [FE__RANGE_SECONDS] = {0.0, 1e9},
+    [FE__RANGE_BOOL] = {0.0, 1.0},
+    [FE__RANGE_LINK] = {-1.0, INT32_MAX - 1},
+    [FE__RANGE_INDEX] = {0.0, INT32_MAX - 1},
+    [FE__RANGE_LOCKS] = {0.0, 63.0},
+    [FE__RANGE_COUNT] = {0.0, FE__POINTS},
+    [FE__RANGE_BODY_KIND] = {FE_BODY_STATIC, FE_BODY_DYNAMIC},
+    [FE__RANGE_FORM_KIND] = {0.0, FE__FORM_TYPES - 1},
+    [FE__RANGE_COLOUR] = {-1.0, FE__OVERFLOW_COLOUR},
+    [FE__RANGE_JOINT_COLOUR] = {-1.0, FE__JOINT_OVERFLOW},
+    [FE__RANGE_ROW_KIND] = {-1.0, FE__ROW_KINDS - 1},
+    [FE__RANGE_JOINT_KIND] = {1.0, FE__JOINT_TYPES - 1},
+    [FE__RANGE_SUBSTEPS] = {1.0, 64.0},
+    [FE__RANGE_EVENT_KIND] = {0.0, 255.0},
+    [FE__RANGE_GENERATION] = {1.0, FE_ID_LAST_GENERATION},
+    [FE__RANGE_SLOT_STATE] = {FE_ID_HIDDEN, FE_ID_MAX_SLOTS},
+};
+
+// clang-format off
+// ---- the world -----------------------------------------------------------------------------------------------------
+#define WORLD(T, S, R, P) \
+    S(T, user_data, U64, ANY) S(T, next_serial, U64, ANY) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
+    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) S(T, row_kinds, U32, ANY) \
+    S(T, pair_limit, I32, INDEX) S(T, pair_colours, I32, INDEX) S(T, static_colours, I32, INDEX) \
+    S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, ANY) \
+    S(T, most_joints, I32, INDEX) S(T, ignore_limit, I32, INDEX) S(T, encounter_limit, I32, INDEX) \
+    S(T, free_slots, I32, SLOT_STATE) P(4) \
+    R(T, tuning.struct_size) S(T, tuning.contact_hertz, F32, FINITE) S(T, tuning.contact_damping_ratio, F32, FINITE) \
+    S(T, tuning.contact_push_speed, F32, FINITE) S(T, tuning.joint_hertz, F32, FINITE) \
+    S(T, tuning.joint_damping_ratio, F32, FINITE) S(T, tuning.restitution_threshold, F32, FINITE) \
+    S(T, tuning.hit_event_threshold, F32, FINITE) S(T, tuning.sleep_time, F32, FINITE) \
+    S(T, tuning.speculative_distance, F32, FINITE) S(T, tuning.max_linear_speed, F32, FINITE) \
+    S(T, tuning.sleep_enabled, I32, BOOL) S(T, tuning.continuous_enabled, I32, BOOL) \
+    S(T, tuning.warm_start_enabled, I32, BOOL)
+
+#define SLOT(T, S, R, P) S(T, generation, I32, GENERATION) S(T, next, I32, SLOT_STATE)
+
+// ---- bodies --------------------------------------------------------------------------------------------------------
+// Lists of what is created in an order follow from serials. Of pairs and of ignored bodies the order is kept: what is
+// freed in it is given again in it
+#define BODY(T, S, R, P) \
+    R(T, centre_high) R(T, centre_low) /* of centre */ \
+    S(T, speed, F32, POSITIVE) S(T, rotation, F32, UNIT) S(T, local_centre, F32, FINITE) S(T, reach, F32, POSITIVE) \
+    S(T, velocity, F32, FINITE) S(T, inverse_mass, F32, POSITIVE) S(T, spin, F32, FINITE) S(T, lock_bits, F32, LOCKS) \
+    S(T, force, F32, FINITE) S(T, linear_damping, F32, POSITIVE) S(T, torque, F32, FINITE) \
+    S(T, angular_damping, F32, POSITIVE) S(T, inertia, F32, POSITIVE) S(T, mass, F32, POSITIVE) \
+    S(T, inertia_axes, F32, UNIT) S(T, gravity_scale, F32, FINITE) S(T, thickness, F32, POSITIVE) \
+    S(T, sleep_threshold, F32, POSITIVE) S(T, sleep_timer, F32, SECONDS) \
+    R(T, line) /* of the graph */ R(T, awake_index) S(T, island, I32, LINK) \
+    S(T, type, I32, BODY_KIND) S(T, flags, U32, ANY) P(4) S(T, centre, F64, FINITE) S(T, origin, F64, FINITE) \
+    R(T, colours) /* of its contacts */ S(T, drawn, U32, ANY) R(T, joint_colours) R(T, joint_count) P(4) \
+    S(T, serial, U64, ANY) S(T, first_contact, I32, LINK) R(T, contact_count) R(T, static_pairs) \
+    R(T, coming_contacts) /* within a step */ R(T, first_shape) R(T, last_shape) R(T, shape_count) \
+    R(T, first_joint) R(T, last_joint) R(T, joint_total) S(T, first_ignored, I32, INDEX) R(T, locked) \
+    S(T, moved_step, I64, ANY) S(T, user_data, U64, ANY) R(T, order_next) R(T, order_previous) P(8) \
+    S(T, relaxed, F32, FINITE)
+
+#define DRIFT(T, S, R, P) S(T, shift, F32, FINITE) S(T, turn, F32, FINITE)
+
+// ---- shapes --------------------------------------------------------------------------------------------------------
+#define SHAPE(T, S, R, P) \
+    S(T, layer, U32, ANY) S(T, mask, U32, ANY) S(T, flags, U32, ANY) S(T, body, I32, INDEX) \
+    R(T, pose) /* of the body's and its own */ R(T, form) /* a table of its own */ \
+    S(T, local_position, F32, FINITE) S(T, local_rotation, F32, UNIT) P(4) \
+    S(T, material.static_friction, F32, POSITIVE) S(T, material.dynamic_friction, F32, POSITIVE) \
+    S(T, material.restitution, F32, POSITIVE) S(T, material.rolling_resistance, F32, POSITIVE) \
+    S(T, material.spinning_resistance, F32, POSITIVE) S(T, material.friction_combine, I32, INDEX) \
+    S(T, material.restitution_combine, I32, INDEX) R(T, material.reserved) S(T, material.user_id, U64, ANY) \
+    S(T, group, I32, ANY) S(T, events, U32, ANY) S(T, density, F32, POSITIVE) S(T, arm, F32, FINITE) \
+    S(T, surface_velocity, F32, FINITE) S(T, one_way, F32, FINITE) R(T, next) R(T, previous) S(T, serial, U64, ANY) \
+    R(T, body_serial) S(T, user_data, U64, ANY) S(T, next_user, I32, LINK) S(T, parent, I32, LINK)
+
+#define FORM(T, S, R, P) \
+    S(T, kind, I32, FORM_KIND) S(T, radius, F32, POSITIVE) S(T, half_height, F32, POSITIVE) \
+    S(T, distance, F32, FINITE) \
+    S(T, half, F32, POSITIVE) S(T, normal, F32, UNIT)
+
+#define ASSET(T, S, R, P) \
+    S(T, key, U64, ANY) S(T, scale, F32, FINITE) S(T, shape, I32, INDEX) S(T, kind, I32, INDEX) P(4) \
+    S(T, handle, NAME, ANY)
+
+// ---- joints --------------------------------------------------------------------------------------------------------
+// Their parts follow from their settings, as when they were made
+#define JOINT(T, S, R, P) \
+    S(T, type, I32, JOINT_KIND) S(T, flags, U32, ANY) S(T, body, I32, INDEX) R(T, links) R(T, order_next) \
+    R(T, order_previous) R(T, awake_index) R(T, settings) R(T, shift) \
+    S(T, frame[0].position, F32, FINITE) S(T, frame[0].rotation, F32, UNIT) S(T, frame[1].position, F32, FINITE) \
+    S(T, frame[1].rotation, F32, UNIT) S(T, hertz, F32, POSITIVE) S(T, damping_ratio, F32, POSITIVE) \
+    S(T, break_force, F32, POSITIVE) S(T, break_torque, F32, POSITIVE) S(T, user_data, U64, ANY) \
+    S(T, world_origin, F64, FINITE) P(4)
+
+#define JOINT_ANCHOR(T, S, R, P) \
+    R(T, arm_a) R(T, hertz) R(T, arm_b) R(T, damping_ratio) S(T, impulse, F32, FINITE) R(T, body_a) R(T, body_b) \
+    S(T, colour, I32, JOINT_COLOUR) S(T, rows, U32, ANY)
+
+#define JOINT_FRAME(T, S, R, P) \
+    R(T, frame_a) R(T, frame_b) S(T, impulse, F32, FINITE) S(T, serial, U64, ANY) R(T, axes) R(T, parts) R(T, locked)
+
+#define REACTION(T, S, R, P) S(T, force, F32, FINITE) S(T, torque, F32, FINITE)
+
+#define ONE_AXIS(T, S, R, i) \
+    R(T, axis[i].limit) R(T, axis[i].drive) R(T, axis[i].motor) S(T, axis[i].impulse, F32, FINITE) \
+    S(T, axis[i].state.x, F32, FINITE) S(T, axis[i].state.force, F32, FINITE) R(T, axis[i].state.zero)
+#define AXES(T, S, R, P) \
+    ONE_AXIS(T, S, R, 0) ONE_AXIS(T, S, R, 1) ONE_AXIS(T, S, R, 2) ONE_AXIS(T, S, R, 3) ONE_AXIS(T, S, R, 4) \
+    ONE_AXIS(T, S, R, 5) \
+    R(T, rotation.target) R(T, rotation.drive) R(T, rotation.motor) S(T, rotation.impulse, F32, FINITE) \
+    S(T, rotation.motor_impulse, F32, FINITE) S(T, rotation.torque, F32, FINITE)
+
+// ---- pairs ---------------------------------------------------------------------------------------------------------
+#define PAIR(T, S, R, P) \
+    S(T, shape_a, I32, INDEX) S(T, shape_b, I32, INDEX) R(T, body_a) R(T, body_b) \
+    S(T, links[0].next, I32, LINK) R(T, links[0].previous) S(T, links[1].next, I32, LINK) R(T, links[1].previous) \
+    S(T, flags, U32, ANY) R(T, events) /* of its shapes */ R(T, result) /* within a step */ \
+    S(T, next_patch, I32, LINK) R(T, awake_index) S(T, axis, I32, LINK) S(T, axis_separation, F32, FINITE) \
+    S(T, head, I32, LINK) S(T, triangle, I32, LINK)
+
+#define CONTACT(T, S, R, P) \
+    S(T, normal, F32, FINITE) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE) \
+    S(T, static_friction, F32, POSITIVE) \
+    S(T, surface, F32, FINITE) S(T, found_span, F32, FINITE) S(T, longest_arm, F32, FINITE) \
+    S(T, found_a, F32, FINITE) S(T, found_b, F32, FINITE) S(T, found_low, F32, FINITE) R(T, points) R(T, body_a) \
+    R(T, body_b) S(T, kind, I32, ROW_KIND) S(T, colour, I32, COLOUR)
+
+#define POINTS(T, S, R, P) \
+    S(T, separation, F32, FINITE) S(T, normal_impulse, F32, FINITE) S(T, friction_impulse, F32, FINITE) \
+    S(T, twist_impulse, F32, FINITE) S(T, total_impulse, F32, FINITE) S(T, point, F32, FINITE)
+
+#define FEATURES(T, S, R, P) S(T, ids, U32, ANY) S(T, approach, F32, FINITE)
+
+#define EXTRA(T, S, R, P) \
+    S(T, restitution, F32, POSITIVE) S(T, rolling, F32, POSITIVE) S(T, spinning, F32, POSITIVE) \
+    S(T, surface_velocity, F32, FINITE) S(T, rolling_impulse, F32, FINITE)
+
+#define LISTED(T, S, R, P) S(T, slot, I32, INDEX)
+
+#define DEFERRAL(T, S, R, P) \
+    S(T, slot, I32, INDEX) S(T, gap, F32, FINITE) S(T, most, F32, FINITE) S(T, apart, U32, ANY) S(T, turned, U32, ANY)
+
+#define IGNORE(T, S, R, P) S(T, slot, I32, INDEX) S(T, body, I32, INDEX) S(T, next, I32, INDEX)
+
+#define ENCOUNTER(T, S, R, P) \
+    S(T, slot, I32, INDEX) S(T, shape_a, I32, INDEX) S(T, shape_b, I32, INDEX) S(T, lead, I32, INDEX) \
+    S(T, denied, U16, BOOL) S(T, entered, U16, BOOL) S(T, listed, I32, BOOL)
+
+// ---- events --------------------------------------------------------------------------------------------------------
+#define PAIR_EVENT(T, S, R, P, e) \
+    S(T, e serial_a, U64, ANY) S(T, e serial_b, U64, ANY) S(T, e body_a, NAME, ANY) S(T, e body_b, NAME, ANY) \
+    S(T, e shape_a, NAME, ANY) S(T, e shape_b, NAME, ANY) S(T, e kind, I16, EVENT_KIND) S(T, e is_trigger, U8, BOOL) \
+    S(T, e field_a, U8, BOOL) S(T, e triangle, I32, LINK)
+#define PLAIN_PAIR_EVENT(T, S, R, P) PAIR_EVENT(T, S, R, P, )
+#define OWED(T, S, R, P) S(T, slot, I32, INDEX) P(4) PAIR_EVENT(T, S, R, P, exit.)
+
+#define BODY_EVENT(T, S, R, P) \
+    S(T, serial, U64, ANY) S(T, event.body, NAME, ANY) S(T, event.kind, I32, EVENT_KIND) R(T, event.reserved)
+
+#define HIT_EVENT(T, S, R, P) \
+    S(T, serial_a, U64, ANY) S(T, serial_b, U64, ANY) S(T, event.body_a, NAME, ANY) S(T, event.body_b, NAME, ANY) \
+    S(T, event.shape_a, NAME, ANY) S(T, event.shape_b, NAME, ANY) S(T, event.material_a, U64, ANY) \
+    S(T, event.material_b, U64, ANY) S(T, event.point, F64, FINITE) S(T, event.normal, F32, FINITE) \
+    S(T, event.speed, F32, FINITE) S(T, event.impulse, F32, FINITE) S(T, event.part_a, I32, LINK) \
+    S(T, event.part_b, I32, LINK) S(T, event.triangle_a, I32, LINK) S(T, event.triangle_b, I32, LINK) \
+    R(T, event.reserved)
+
+#define JOINT_EVENT(T, S, R, P) \
+    S(T, serial, U64, ANY) S(T, event.joint, NAME, ANY) S(T, event.body_a, NAME, ANY) S(T, event.body_b, NAME, ANY) \
+    S(T, event.user_data, U64, ANY) S(T, event.kind, I32, EVENT_KIND) S(T, event.type, I32, JOINT_KIND) \
+    S(T, event.force, F32, FINITE) S(T, event.torque, F32, FINITE)
+
+// ---- trees ---------------------------------------------------------------------------------------------------------
+#define TREE(T, S, R, P) \
+    R(T, kernels) R(T, nodes) S(T, node_count, I32, INDEX) S(T, node_capacity, I32, INDEX) S(T, dead, I32, INDEX) \
+    P(4) R(T, slot) R(T, slot_capacity) S(T, proxy_count, I32, INDEX) S(T, promised, I32, INDEX) \
+    S(T, depth, I32, INDEX) \
+    S(T, built_cost, F32, POSITIVE) P(4) S(T, origin, F64, FINITE)
+
+#define NODE(T, S, R, P) \
+    S(T, box, F32, ANY) S(T, child, I32, ANY) S(T, parent, I32, LINK) S(T, lane, I32, INDEX) R(T, spare)
+// clang-format on
+
+#define DEFINE(name, record, list)                            \
+    static const fe__field name[] = FE__FIELDS(record, list); \
+    FE__IS_WHOLE(record, list)
+
+DEFINE(world_fields, fe__world_row, WORLD);
+DEFINE(slot_fields, fe__id_slot, SLOT);
+DEFINE(body_fields, fe__body, BODY);
+DEFINE(drift_fields, fe__drift, DRIFT);
+DEFINE(shape_fields, fe__shape, SHAPE);
+DEFINE(form_fields, fe__form_numbers, FORM);
+DEFINE(asset_fields, fe__asset_row, ASSET);
+DEFINE(joint_fields, fe__joint_record, JOINT);
+DEFINE(anchor_fields, fe__joint, JOINT_ANCHOR);
+DEFINE(frame_fields, fe__joint_frame, JOINT_FRAME);
+DEFINE(reaction_fields, fe__joint_reaction, REACTION);
+DEFINE(axes_fields, fe__joint_axes, AXES);
+DEFINE(pair_fields, fe__pair, PAIR);
+DEFINE(contact_fields, fe__contact, CONTACT);
+DEFINE(points_fields, fe__points, POINTS);
+DEFINE(feature_fields, fe__features, FEATURES);
+DEFINE(extra_fields, fe__extra, EXTRA);
+DEFINE(listed_fields, fe__slot_row, LISTED);
+DEFINE(owed_fields, fe__owed_row, OWED);
+DEFINE(deferral_fields, fe__deferral_row, DEFERRAL);
+DEFINE(ignore_fields, fe__ignore_row, IGNORE);
+DEFINE(encounter_fields, fe__encounter_row, ENCOUNTER);
+DEFINE(pair_event_fields, fe__pair_event_record, PLAIN_PAIR_EVENT);
+DEFINE(body_event_fields, fe__body_event_record, BODY_EVENT);
+DEFINE(hit_event_fields, fe__hit_event_record, HIT_EVENT);
+DEFINE(joint_event_fields, fe__joint_event_record, JOINT_EVENT);
+DEFINE(tree_fields, fe__tree, TREE);
+DEFINE(node_fields, fe__tree_node, NODE);
+
+// Of each type of joint, the words behind the front
+#define SETTINGS(def)                                                                            \
+    {                                                                                            \
+        "setting", 0, FE__U32, FE__RANGE_ANY, (sizeof(def) - FE__JOINT_FRONT) / sizeof(uint32_t) \
+    }
+static const fe__field distance_fields[] = {SETTINGS(fe_distance_joint_def)};
+static const fe__field ball_fields[] = {SETTINGS(fe_ball_joint_def)};
+static const fe__field hinge_fields[] = {SETTINGS(fe_hinge_joint_def)};
+static const fe__field fixed_fields[] = {SETTINGS(fe_fixed_joint_def)};
+static const fe__field configurable_fields[] = {SETTINGS(fe_configurable_joint_def)};
+
+#define TABLE(name, fields, record, rows)                                                                            \
+    {                                                                                                                \
+        name, fields, sizeof(fields) / sizeof *(fields), (int32_t)sizeof(record), fe__count_##rows, fe__next_##rows, \
+            fe__##rows##_at                                                                                          \
+    }
+
+const fe__table fe__tables[FE__TABLES] = {
+    [FE__TABLE_WORLD] = TABLE("world", world_fields, fe__world_row, world),
+    [FE__TABLE_BODY_SLOTS] = TABLE("body slots", slot_fields, fe__id_slot, body_slots),
+    [FE__TABLE_SHAPE_SLOTS] = TABLE("shape slots", slot_fields, fe__id_slot, shape_slots),
+    [FE__TABLE_JOINT_SLOTS] = TABLE("joint slots", slot_fields, fe__id_slot, joint_slots),
+    [FE__TABLE_BODIES] = TABLE("bodies", body_fields, fe__body, bodies),
+    [FE__TABLE_DRIFTS] = TABLE("drifts", drift_fields, fe__drift, drifts),
+    [FE__TABLE_SHAPES] = TABLE("shapes", shape_fields, fe__shape, shapes),
+    [FE__TABLE_FORMS] = TABLE("forms", form_fields, fe__form_numbers, forms),
+    [FE__TABLE_ASSETS] = TABLE("assets", asset_fields, fe__asset_row, assets),
+    [FE__TABLE_JOINTS] = TABLE("joints", joint_fields, fe__joint_record, joints),
+    [FE__TABLE_DISTANCE_JOINTS] = TABLE("distance joints", distance_fields, fe_distance_joint_def, distance_joints),
+    [FE__TABLE_BALL_JOINTS] = TABLE("ball joints", ball_fields, fe_ball_joint_def, ball_joints),
+    [FE__TABLE_HINGE_JOINTS] = TABLE("hinge joints", hinge_fields, fe_hinge_joint_def, hinge_joints),
+    [FE__TABLE_FIXED_JOINTS] = TABLE("fixed joints", fixed_fields, fe_fixed_joint_def, fixed_joints),
+    [FE__TABLE_CONFIGURABLE_JOINTS] =
+        TABLE("configurable joints", configurable_fields, fe_configurable_joint_def, configurable_joints),
+    [FE__TABLE_JOINT_ANCHORS] = TABLE("joint anchors", anchor_fields, fe__joint, joint_anchors),
+    [FE__TABLE_JOINT_FRAMES] = TABLE("joint frames", frame_fields, fe__joint_frame, joint_frames),
+    [FE__TABLE_JOINT_REACTIONS] = TABLE("joint reactions", reaction_fields, fe__joint_reaction, joint_reactions),
+    [FE__TABLE_JOINT_AXES] = TABLE("joint axes", axes_fields, fe__joint_axes, joint_axes),
+    [FE__TABLE_PAIRS] = TABLE("pairs", pair_fields, fe__pair, pairs),
+    [FE__TABLE_CONTACTS] = TABLE("contacts", contact_fields, fe__contact, contacts),
+    [FE__TABLE_TOUCHING] = TABLE("touching pairs", listed_fields, fe__slot_row, touching),
+    [FE__TABLE_POINTS] = TABLE("points", points_fields, fe__points, points),
+    [FE__TABLE_FEATURES] = TABLE("features", feature_fields, fe__features, features),
+    [FE__TABLE_EXTRAS] = TABLE("extras", extra_fields, fe__extra, extras),
+    [FE__TABLE_FREE_PAIRS] = TABLE("free pairs", listed_fields, fe__slot_row, free_pairs),
+    [FE__TABLE_OWED] = TABLE("owed exits", owed_fields, fe__owed_row, owed),
+    [FE__TABLE_AWAKE_BODIES] = TABLE("awake bodies", listed_fields, fe__slot_row, awake_bodies),
+    [FE__TABLE_AWAKE_PAIRS] = TABLE("awake pairs", listed_fields, fe__slot_row, awake_pairs),
+    [FE__TABLE_DEFERRALS] = TABLE("deferred pairs", deferral_fields, fe__deferral_row, deferrals),
+    [FE__TABLE_AWAKE_JOINTS] = TABLE("awake joints", listed_fields, fe__slot_row, awake_joints),
+    [FE__TABLE_PLANES] = TABLE("planes", listed_fields, fe__slot_row, planes),
+    [FE__TABLE_IGNORES] = TABLE("ignored pairs", ignore_fields, fe__ignore_row, ignores),
+    [FE__TABLE_FREE_IGNORES] = TABLE("free ignored pairs", listed_fields, fe__slot_row, free_ignores),
+    [FE__TABLE_ENCOUNTERS] = TABLE("encounters", encounter_fields, fe__encounter_row, encounters),
+    [FE__TABLE_FREE_ENCOUNTERS] = TABLE("free encounters", listed_fields, fe__slot_row, free_encounters),
+    [FE__TABLE_PAIR_EVENTS] = TABLE("pair events", pair_event_fields, fe__pair_event_record, pair_events),
+    [FE__TABLE_BODY_EVENTS] = TABLE("body events", body_event_fields, fe__body_event_record, body_events),
+    [FE__TABLE_HIT_EVENTS] = TABLE("hit events", hit_event_fields, fe__hit_event_record, hit_events),
+    [FE__TABLE_JOINT_EVENTS] = TABLE("joint events", joint_event_fields, fe__joint_event_record, joint_events),
+    [FE__TABLE_TREES] = TABLE("trees", tree_fields, fe__tree, trees),
+    [FE__TABLE_STATIC_NODES] = TABLE("nodes of the static tree", node_fields, fe__tree_node, static_nodes),
+    [FE__TABLE_MOVING_NODES] = TABLE("nodes of the moving tree", node_fields, fe__tree_node, moving_nodes),
+};

@@ -1,0 +1,208 @@
+// write.c - see write.h. A table is written in blocks of rows: their records are found once, then read column by column
+// while they are in the cache.
+#include "state/write.h"
+
+#include "core/bytes.h"
+#include "core/hash.h"
+#include "state/sum.h"
+#include "store/asset_bytes.h"
+
+#include <string.h>
+
+const unsigned char fe__snapshot_magic[8] = {'F', 'E', 'A', 'S', 'N', 'A', 'P', 0x1A};
+
+int64_t fe__row_size(const fe__table *table)
+{
+    int64_t size = 0;
+    for (int32_t i = 0; i < table->field_count; ++i) size += fe__field_size(table->fields + i);
+    return size;
+}
+
+uint64_t fe__header_sum(const unsigned char *header)
+{
+    fe__hash hash = fe__hash_begin();
+    const unsigned char *at = header;
+    fe__hash_u64(&hash, fe__take_u64(&at));
+    fe__hash_u64(&hash, fe__take_u64(&at));
+    fe__hash_u64(&hash, fe__take_u32(&at)); // the number follows
+    at = header + FE__AT_SIZE;
+    fe__hash_u64(&hash, fe__take_u64(&at));
+    at = header + FE__AT_SECTIONS;
+    fe__hash_u64(&hash, fe__take_u64(&at));
+    return fe__hash_end(&hash);
+}
+
+// ---- columns -------------------------------------------------------------------------------------------------------
+static void put_swapped(unsigned char *out, const unsigned char *in, const fe__field *field)
+{
+    uint32_t size = fe__kind_size(field->kind);
+    for (uint32_t i = 0; i < field->count; ++i, in += size)
+        for (uint32_t k = 0; k < size; ++k) *out++ = in[size - 1 - k];
+}
+
+static void put_names(unsigned char *out, const unsigned char *in, const fe__field *field)
+{
+    const fe_handle number = (fe_handle)FE_ID_LAST_NUMBER << FE_ID_NUMBER_SHIFT;
+    for (uint32_t i = 0; i < field->count; ++i, in += sizeof number) {
+        fe_handle handle;
+        memcpy(&handle, in, sizeof handle);
+        out = fe__put_u64(out, handle & ~number);
+    }
+}
+
+#define COPY(bytes)                                                                                       \
+    case bytes:                                                                                           \
+        for (int32_t i = 0; i < count; ++i, out += bytes) memcpy(out, records[i] + field->offset, bytes); \
+        return;
+
+// The sizes that most fields have are copied without a call
+static void put_column(const fe__field *field, const unsigned char *const *records, int32_t count, unsigned char *out)
+{
+    uint32_t size = fe__field_size(field);
+    if (field->kind == FE__NAME) {
+        for (int32_t i = 0; i < count; ++i, out += size) put_names(out, records[i] + field->offset, field);
+        return;
+    }
+    if (!FE_IS_LITTLE_ENDIAN) {
+        for (int32_t i = 0; i < count; ++i, out += size) put_swapped(out, records[i] + field->offset, field);
+        return;
+    }
+    switch (size) {
+        COPY(4)
+        COPY(8)
+        COPY(12)
+        COPY(16)
+        COPY(64)
+    default:
+        for (int32_t i = 0; i < count; ++i, out += size) memcpy(out, records[i] + field->offset, size);
+    }
+}
+
+enum { BLOCK = 64 }; // rows
+
+typedef struct block {
+    const unsigned char *records[BLOCK];
+    _Alignas(16) unsigned char rooms[BLOCK][FE__ROOM];
+} block;
+
+static void put_rows(const fe_world *world, const fe__table *table, int32_t rows, unsigned char *out)
+{
+    block b;
+    for (int32_t first = 0, place = -1; first < rows; first += BLOCK) {
+        int32_t count = fe__mini(rows - first, BLOCK);
+        for (int32_t i = 0; i < count; ++i) {
+            place = table->next(world, place);
+            b.records[i] = table->at(world, place, b.rooms[i]);
+        }
+        unsigned char *column = out;
+        for (int32_t f = 0; f < table->field_count; ++f) {
+            int64_t size = fe__field_size(table->fields + f);
+            put_column(table->fields + f, b.records, count, column + size * first);
+            column += size * rows;
+        }
+    }
+}
+
+// ---- sections ------------------------------------------------------------------------------------------------------
+typedef struct writer {
+    unsigned char *at;
+    uint64_t sum; // of the sections so far
+    uint32_t sections;
+} writer;
+
+// What it holds is written behind its header
+static void close_section(writer *w, uint32_t type, int64_t size)
+{
+    unsigned char *content = w->at + FE__SECTION_HEADER;
+    int64_t whole = fe__padded(size);
+    memset(content + size, 0, (size_t)(whole - size));
+    uint64_t sum = fe__sum_of(content, whole);
+    unsigned char *at = fe__put_u16(fe__put_u16(fe__put_u32(w->at, type), 1), 0);
+    fe__put_u64(fe__put_u64(at, (uint64_t)whole), sum);
+    w->at = content + whole;
+    w->sum = fe__join_sums(w->sum, sum);
+    ++w->sections;
+}
+
+static void write_table(writer *w, const fe_world *world, uint32_t number)
+{
+    const fe__table *table = fe__tables + number;
+    int32_t rows = table->count(world);
+    put_rows(world, table, rows, fe__put_u64(w->at + FE__SECTION_HEADER, (uint64_t)rows));
+    close_section(w, number, FE__SECTION_ROWS + rows * fe__row_size(table));
+}
+
+// ---- contents of assets
+// ---------------------------------------------------------------------------------------------- The asset at a place
+// in the table of uses, unless an earlier one there is of the same
+static const fe__asset *asset_to_write(const fe_world *world, int32_t place)
+{
+    const fe__asset *asset = fe__store_parent(world->store, world->uses[place].asset);
+    for (int32_t i = 0; i < place; ++i)
+        if (fe__store_parent(world->store, world->uses[i].asset) == asset) return NULL;
+    return asset->kind == FE__ASSET_COMPOUND ? NULL : asset;
+}
+
+int32_t fe__snapshot_has_compounds(const fe_world *world)
+{
+    for (int32_t i = 0; i < world->use_count; ++i)
+        if (fe__store_asset(world->store, world->uses[i].asset)->kind == FE__ASSET_COMPOUND) return 1;
+    return 0;
+}
+
+static int64_t assets_size(const fe_world *world)
+{
+    int64_t size = 0;
+    for (int32_t i = 0; i < world->use_count; ++i) {
+        const fe__asset *asset = asset_to_write(world, i);
+        if (asset) size += FE__SECTION_HEADER + fe__asset_bytes(asset);
+    }
+    return size;
+}
+
+// By the slots of their first users: the order of the store's own numbers is no state
+static void write_assets(writer *w, const fe_world *world)
+{
+    const fe__table *table = fe__tables + FE__TABLE_ASSETS;
+    for (int32_t row = 0, shape = -1; row < world->use_count; ++row) {
+        shape = table->next(world, shape);
+        const fe__asset *asset = fe__store_parent(world->store, world->shapes[shape].form.field);
+        if (asset->kind == FE__ASSET_COMPOUND) continue;
+        int32_t is_first = 1;
+        for (int32_t i = 0, other = -1; i < row && is_first; ++i) {
+            other = table->next(world, other);
+            is_first = fe__store_parent(world->store, world->shapes[other].form.field) != asset;
+        }
+        if (!is_first) continue;
+        int64_t size = fe__asset_bytes(asset);
+        fe__asset_write(asset, w->at + FE__SECTION_HEADER);
+        fe__asset_seal(w->at + FE__SECTION_HEADER, size);
+        close_section(w, FE__SECTION_ASSET, size);
+    }
+}
+
+// ---- the whole -----------------------------------------------------------------------------------------------------
+int64_t fe__snapshot_size(const fe_world *world, int32_t with_assets)
+{
+    int64_t size = FE__SNAPSHOT_HEADER;
+    for (int32_t i = 0; i < FE__TABLES; ++i) size += fe__section_size(fe__tables + i, fe__tables[i].count(world));
+    return with_assets ? size + assets_size(world) : size;
+}
+
+static void write_header(const writer *w, unsigned char *out, int32_t number)
+{
+    unsigned char *at = fe__put_bytes(out, fe__snapshot_magic, sizeof fe__snapshot_magic);
+    at = fe__put_u16(fe__put_u16(at, FE__SNAPSHOT_MAJOR), FE__SNAPSHOT_MINOR);
+    at = fe__put_u32(fe__put_u32(at, FE__RESULTS), FE_VERSION_MAJOR << 16 | FE_VERSION_MINOR << 8 | FE_VERSION_PATCH);
+    at = fe__put_u64(fe__put_u32(at, (uint32_t)number), (uint64_t)(w->at - out));
+    fe__put_u32(fe__put_u32(at + sizeof(uint64_t), w->sections), 0);
+    fe__put_u64(at, fe__join_sums(w->sum, fe__header_sum(out)));
+}
+
+void fe__snapshot_write(const fe_world *world, int32_t with_assets, unsigned char *out)
+{
+    writer w = {.at = out + FE__SNAPSHOT_HEADER};
+    for (uint32_t i = 0; i < FE__TABLES; ++i) write_table(&w, world, i);
+    if (with_assets) write_assets(&w, world);
+    write_header(&w, out, world->number);
+}
