@@ -18,8 +18,7 @@ typedef struct fe__build {
     fe__asset_key missing; // with FE_ERROR_STATE: of the first that is not there
 } fe__build;
 
-// ---- the parts of a world, in this order: 0: refused, see snapshot->result
-// ---------------------------------------------------------------------------------------
+// ---- the parts of a world, in this order: 0: refused, see snapshot->result ------------------------------------------
 int32_t fe__build_slots(fe__build *build, const fe__world_row *row);
 int32_t fe__build_bodies(fe__build *build);
 int32_t fe__build_shapes(fe__build *build);

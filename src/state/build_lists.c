@@ -25,8 +25,7 @@ static void *claim_record(const fe__record_pool *pool, int32_t slot)
     return fe__record(pool, slot);
 }
 
-// ---- ignored bodies
-// --------------------------------------------------------------------------------------------------
+// ---- ignored bodies -------------------------------------------------------------------------------------------------
 static int32_t take_ignore(fe__build *b, int32_t i)
 {
     fe_world *w = b->world;
@@ -75,8 +74,7 @@ int32_t fe__build_ignores(fe__build *b, const fe__world_row *row)
     return met == 2 * (int64_t)rows || fe__snapshot_refuse(b->snapshot, "ignored pairs: one is in no list");
 }
 
-// ---- encounters
-// ------------------------------------------------------------------------------------------------------
+// ---- encounters ----------------------------------------------------------------------------------------------------
 static int32_t is_whole(const fe_world *w, int32_t shape)
 {
     return shape < w->shape_ids.slot_count && w->shape_ids.slots[shape].next == FE_ID_ALIVE;
@@ -109,6 +107,8 @@ static int32_t count_pairs_of_parts(fe__build *b)
         if (!e) return fe__snapshot_refuse(b->snapshot, "pair %d: its shapes have no encounter", (int)pair);
         ++e->pairs, ++w->part_pair_count;
         e->touching += (p->flags & FE__PAIR_TOUCHING) != 0;
+        e->held += (p->flags & FE__PAIR_LINKED) != 0;
+        e->passing += (p->flags & FE__PAIR_PASSED) != 0;
     }
     return 1;
 }
@@ -149,8 +149,7 @@ int32_t fe__build_encounters(fe__build *b, const fe__world_row *row)
     return 1;
 }
 
-// ---- who is awake
-// ----------------------------------------------------------------------------------------------------
+// ---- who is awake ---------------------------------------------------------------------------------------------------
 static int32_t is_awake(const fe_world *w, int32_t body) { return w->bodies[body].awake_index >= 0; }
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
 
@@ -263,8 +262,7 @@ int32_t fe__build_awake(fe__build *b)
     return 1;
 }
 
-// ---- events
-// ----------------------------------------------------------------------------------------------------------
+// ---- events ---------------------------------------------------------------------------------------------------------
 #define TAKE_EVENTS(build, table, array, used, capacity)                                                \
     do {                                                                                                \
         int32_t rows = fe__rows_of((build)->snapshot, table);                                           \

@@ -23,8 +23,7 @@ static const void *listed(int32_t slot, void *room)
         return record;                                                            \
     }
 
-// ---- pairs: contact 0 is no contact
-// ------------------------------------------------------------------------------------
+// ---- pairs: contact 0 is no contact ---------------------------------------------------------------------------------
 static int32_t live_pairs(const fe_world *w) { return w->pair_count + w->field_pair_count * (FE__PATCHES - 1); }
 
 static int32_t next_pair(const fe_world *w, int32_t place)
@@ -67,8 +66,7 @@ RECORDS(extras, world->extras + world->contacts[place].points)
 ROWS(awake_pairs, world->awake_pair_count, next_awake(world, place))
 RECORDS(awake_pairs, listed(place, room))
 
-// ---- deferred pairs
-// ----------------------------------------------------------------------------------------------------
+// ---- deferred pairs -------------------------------------------------------------------------------------------------
 static int32_t is_deferred(const fe_world *w, int32_t pair) { return w->awake_pairs[w->pairs[pair].awake_index] < 0; }
 
 // The one count that is not kept: the list is short against all that is written
@@ -98,8 +96,7 @@ const void *fe__deferrals_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- slots without a pair
-// ------------------------------------------------------------------------------------------------
+// ---- slots without a pair -------------------------------------------------------------------------------------------
 ROWS(free_pairs, world->pair_limit - 1 - live_pairs(world) - world->owed_count,
      place < 0 ? world->first_free_pair : world->pairs[place].links[0].next)
 RECORDS(free_pairs, listed(place, room))
@@ -113,8 +110,7 @@ const void *fe__owed_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- record pools
-// --------------------------------------------------------------------------------------------------------
+// ---- record pools ---------------------------------------------------------------------------------------------------
 static int32_t next_free(const fe__record_pool *pool, int32_t place)
 {
     int32_t next;

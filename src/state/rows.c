@@ -67,8 +67,7 @@ static int32_t next_slot(const fe__id_pool *pool, int32_t slot, int32_t with_hid
     return slot;
 }
 
-// ---- bodies: anchors are their joints'
-// -------------------------------------------------------------------------------
+// ---- bodies: anchors are their joints' ------------------------------------------------------------------------------
 #define SLOT_ROWS(rows, length, pool, with_hidden)                     \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place)      \
@@ -81,8 +80,7 @@ ARRAY_RECORDS(bodies, world->bodies + place)
 SLOT_ROWS(drifts, world->body_count, body_ids, 0)
 ARRAY_RECORDS(drifts, world->drifts + place)
 
-// ---- shapes: with the parts of compounds
-// -----------------------------------------------------------------------------
+// ---- shapes: with the parts of compounds ----------------------------------------------------------------------------
 SLOT_ROWS(shapes, world->shape_count, shape_ids, 1)
 ARRAY_RECORDS(shapes, world->shapes + place)
 SLOT_ROWS(forms, world->shape_count, shape_ids, 1)
@@ -115,8 +113,7 @@ const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
     return room;
 }
 
-// ---- joints: joint i has slot i - 1
-// -----------------------------------------------------------------------------------
+// ---- joints: joint i has slot i - 1 ---------------------------------------------------------------------------------
 #define JOINT_ROWS(rows, record)                      \
     SLOT_ROWS(rows, world->joint_count, joint_ids, 0) \
     ARRAY_RECORDS(rows, record)
@@ -155,8 +152,7 @@ int32_t fe__next_joint_axes(const fe_world *world, int32_t place)
 }
 ARRAY_RECORDS(joint_axes, world->joints.axes + world->joints.frames[place + 1].axes)
 
-// ---- who is awake, planes
-// ----------------------------------------------------------------------------------------------
+// ---- who is awake, planes -------------------------------------------------------------------------------------------
 ARRAY_ROWS(awake_bodies, world->awake_body_count)
 ARRAY_RECORDS(awake_bodies, listed(world->awake_bodies[place], room))
 ARRAY_ROWS(awake_joints, world->awake_joint_count)
@@ -164,8 +160,7 @@ ARRAY_RECORDS(awake_joints, listed(world->awake_joints[place], room))
 ARRAY_ROWS(planes, world->plane_count)
 ARRAY_RECORDS(planes, listed(world->planes[place], room))
 
-// ---- events
-// ------------------------------------------------------------------------------------------------------------
+// ---- events ---------------------------------------------------------------------------------------------------------
 ARRAY_ROWS(pair_events, world->pair_event_count)
 ARRAY_RECORDS(pair_events, world->pair_events + place)
 ARRAY_ROWS(body_events, world->body_event_count)
@@ -175,8 +170,7 @@ ARRAY_RECORDS(hit_events, world->hit_events + place)
 ARRAY_ROWS(joint_events, world->joint_event_count)
 ARRAY_RECORDS(joint_events, world->joint_events + place)
 
-// ---- trees
-// -------------------------------------------------------------------------------------------------------------
+// ---- trees ----------------------------------------------------------------------------------------------------------
 ARRAY_ROWS(static_nodes, world->static_tree.node_count)
 ARRAY_RECORDS(static_nodes, world->static_tree.nodes + place)
 ARRAY_ROWS(moving_nodes, world->moving_tree.node_count)

@@ -44,8 +44,7 @@ static fe_world *new_world(void)
     return world;
 }
 
-// ---- right sums, by code of its own
-// ----------------------------------------------------------------------------------
+// ---- right sums, by code of its own ---------------------------------------------------------------------------------
 static uint64_t take(const unsigned char *at, int32_t size)
 {
     uint64_t x = 0;
@@ -88,8 +87,7 @@ static void mend(bytes b)
     put(b.data + AT_SUM, join(sum, fe__hash_end(&hash)));
 }
 
-// ---- the scene: each form, joints, trees, sleep, events, what is free and what is ignored
-// ----------------------------
+// ---- the scene: each form, joints, trees, sleep, events, what is free and what is ignored ---------------------------
 static fe_world *make_scene(const script *s, int32_t steps)
 {
     static play p;
@@ -134,8 +132,7 @@ static void live(fe_world *world)
     FE_TRUE(fe_world_step(world, 1.0f / 60.0f) == FE_OK);
 }
 
-// ---- laws
-// ------------------------------------------------------------------------------------------------------------
+// ---- laws -----------------------------------------------------------------------------------------------------------
 static void bytes_that_are_cut_are_refused_and_change_nothing(void **state)
 {
     (void)state;

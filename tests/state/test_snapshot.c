@@ -44,8 +44,7 @@ static uint64_t hash_of(const fe_world *world)
 
 static void destroy(fe_world *world) { FE_TRUE(fe_world_destroy(world) == FE_OK); }
 
-// ---- arguments
-// -------------------------------------------------------------------------------------------------------
+// ---- arguments ------------------------------------------------------------------------------------------------------
 static void saving_says_how_large_it_is_and_writes_no_less(void **state)
 {
     (void)state;
@@ -115,8 +114,7 @@ static void a_snapshot_says_what_is_in_it(void **state)
     destroy(world);
 }
 
-// ---- handles, filters, assets
-// ------------------------------------------------------------------------------------------
+// ---- handles, filters, assets ---------------------------------------------------------------------------------------
 static void handles_are_the_saved_worlds_unless_a_new_number_is_asked_for(void **state)
 {
     (void)state;
@@ -226,8 +224,7 @@ static void an_edited_field_is_another_asset(void **state)
     destroy(world);
 }
 
-// ---- memory
-// ------------------------------------------------------------------------------------------------------------
+// ---- memory ---------------------------------------------------------------------------------------------------------
 static fe_world *world_of(counting *c, bytes from)
 {
     fe_allocator allocator;

@@ -57,8 +57,7 @@ typedef struct fe__approach_hit {
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
-// ---- hulls, and what has a rim (approach_curved.c)
-// --------------------------------------------------------------------------------
+// ---- hulls, and what has a rim (approach_curved.c) ------------------------------------------------------------------
 static inline int32_t fe__is_curved_pair(const fe__approach *a)
 {
     return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;
