@@ -271,6 +271,12 @@ static void put_face(lua_State *L, int *n, const fe_hull_face *e)
     put_integer(L, n, e->first), put_integer(L, n, e->count), put_vec3(L, n, &e->normal);
     put(L, n, (double)e->distance);
 }
+static void put_key(lua_State *L, int *n, const fe_asset_key *e)
+{
+    push_key(L, e);
+    lua_rawseti(L, -2, ++*n);
+}
+PUSH_ALL(push_keys, fe_asset_key, 1, put_key)
 PUSH_ALL(push_vertices, fe_vec3, 3, put_vec3)
 PUSH_ALL(push_faces, fe_hull_face, 6, put_face)
 PUSH_ALL(push_corners, int32_t, 1, put_index)

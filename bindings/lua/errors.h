@@ -7,6 +7,7 @@
 #include <lauxlib.h>
 #include <lua.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 // In the registry: what the chunk names of the package's own Lua files begin with, see hide_lines.
@@ -51,7 +52,12 @@ static int fail(lua_State *L, const char *format, ...)
     return lua_error(L);
 }
 
-/// Raises the library's last error.
-static int raise_last(lua_State *L) { return fail(L, "%s", fe_last_error()); }
+/// Raises the library's last error. It is copied first: what Lua allocates may run a finalizer, whose call may be refused.
+static int raise_last(lua_State *L)
+{
+    char sentence[512]; // no sentence of the library is longer
+    snprintf(sentence, sizeof sentence, "%s", fe_last_error());
+    return fail(L, "%s", sentence);
+}
 
 #endif

@@ -276,9 +276,10 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 FE_PUSH_ALL(fe_draw_vertex *out_vertices, push_draw_vertices)
 FE_PUSH_ALL(fe_draw_instance *out_instances, push_draw_instances)
 
-// bytes of an asset: a string, whose size is asked for first
+// bytes of an asset or of a world: a string, whose size is asked for first
 %typemap(in, numinputs=0) (void *out, int64_t capacity) "$1 = NULL; $2 = 0;"
-%exception fe_asset_save {
+%define FE_BYTES(FUNCTION)
+%exception FUNCTION {
     $action
     if (result > 0) {
         arg3 = lua_newuserdata(L, (size_t)result);
@@ -287,6 +288,9 @@ FE_PUSH_ALL(fe_draw_instance *out_instances, push_draw_instances)
     }
     if (result < 0) raise_last(L);
 }
+%enddef
+FE_BYTES(fe_asset_save)
+FE_BYTES(fe_world_save)
 %typemap(argout) (void *out, int64_t capacity) %{ lua_pushlstring(L, $1, (size_t)result); SWIG_arg++; %}
 %typemap(in) (const void *bytes, int64_t size) {
     size_t size = 0;
@@ -295,6 +299,21 @@ FE_PUSH_ALL(fe_draw_instance *out_instances, push_draw_instances)
     $1 = ($1_ltype)lua_tolstring(L, $input, &size);
     $2 = (int64_t)size;
 }
+// is the result FE_FOREIGN?
+%typemap(out) fe_result fe_world_restore, fe_result fe_world_load %{
+    if ($1 < 0) raise_last(L);
+    lua_pushboolean(L, $1 == FE_FOREIGN);
+    SWIG_arg++;
+%}
+FE_OUT(fe_asset_key *out_key, push_key(L, $1); SWIG_arg++)
+%typemap(in, numinputs=0) fe_asset_key *out_keys "$1 = NULL;"
+FE_ALL_RECORDS(fe_snapshot_get_assets, arg3, arg4, arg5)
+%typemap(argout) fe_asset_key *out_keys { push_keys(L, $1, result); SWIG_arg++; }
+%ignore fe_asset_key;
+// Arrays of assets that stand for others: what lies in the world's store is found without them.
+%ignore fe_restore_options::keys;
+%ignore fe_restore_options::assets;
+%ignore fe_restore_options::asset_count;
 
 %typemap(in) const fe_query_filter *filter (fe_query_filter value) "$1 = to_filter(L, $input, &value);"
 %typemap(in) const fe_heightfield_def *def (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"

@@ -78,6 +78,14 @@ static void push_words(lua_State *L, const uint32_t *words)
     lua_pushstring(L, text);
 }
 
+/// The key of an asset as 32 hexadecimal digits, in the order in which errors tell it.
+static void push_key(lua_State *L, const fe_asset_key *key)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%016llx%016llx", (unsigned long long)key->words[0], (unsigned long long)key->words[1]);
+    lua_pushstring(L, text);
+}
+
 static double at(lua_State *L, int table, int i, const char *what)
 {
     lua_rawgeti(L, table, i);

@@ -27,14 +27,41 @@ end
 local C = library()
 local core = { ffi = true }
 -- const: nobody but forget changes them
-local Box = ffi.typeof("struct { fe_world *const p; }")
+local Box = ffi.typeof("struct { fe_world *const p; fe_pool *const pool; fe_store *const store; }")
 local PoolBox = ffi.typeof("struct { fe_pool *const p; }")
 local StoreBox = ffi.typeof("struct { fe_store *const p; }")
 local env = { C = C, ffi = ffi, tonumber = tonumber, type = type, math = math }
 
 -- ---- worlds, pools and stores ---------------------------------------------------------------------------------------
 
-function env.forget(box) ffi.cast("void **", box)[0] = nil end
+-- How many worlds use a pool or a store, by its address. One whose finalizer comes first waits for the last of them: a
+-- call that is refused would take the place of the error that a script is about to be told.
+local users, waiting = {}, {}
+local function address(pointer) return tonumber(ffi.cast("uintptr_t", pointer)) end
+local function use(pointer)
+    if pointer ~= nil then users[address(pointer)] = (users[address(pointer)] or 0) + 1 end
+end
+local function release(pointer)
+    local at = pointer ~= nil and address(pointer)
+    if not at then return end
+    users[at] = users[at] > 1 and users[at] - 1 or nil
+    if not users[at] and waiting[at] then
+        waiting[at](pointer)
+        waiting[at] = nil
+    end
+end
+local function end_shared(pointer, destroy)
+    if pointer == nil then return end
+    if users[address(pointer)] then waiting[address(pointer)] = destroy else destroy(pointer) end
+end
+
+function env.forget(box)
+    ffi.cast("void **", box)[0] = nil
+    if ffi.istype(Box, box) then
+        release(box.pool)
+        release(box.store)
+    end
+end
 function env.world(box)
     if not ffi.istype(Box, box) then fail("a world is needed, not a %s", type(box)) end
     if box.p == nil then fail("the world is destroyed") end
@@ -54,21 +81,17 @@ function env.store(box)
     return box.p
 end
 
--- Finalizers run in any order: a pool and a store refuse their end while a world of theirs lives. They end with it.
-local refused = {}
 local function end_world(box)
     if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then env.forget(box) end
-    for other, destroy in pairs(refused) do
-        if destroy(other.p) == 0 then refused[other] = nil end
-    end
 end
-local function end_pool(box)
-    if box.p ~= nil and C.fe_pool_destroy(box.p) ~= 0 then refused[box] = C.fe_pool_destroy end
+local function end_pool(box) end_shared(box.p, C.fe_pool_destroy) end
+local function end_store(box) end_shared(box.p, C.fe_store_destroy) end
+function env.new_world(pointer, def)
+    local pool, store = def and def.pool or nil, def and def.store or nil
+    use(pool)
+    use(store)
+    return ffi.gc(Box(pointer, pool, store), end_world)
 end
-local function end_store(box)
-    if box.p ~= nil and C.fe_store_destroy(box.p) ~= 0 then refused[box] = C.fe_store_destroy end
-end
-function env.new_world(pointer) return ffi.gc(Box(pointer), end_world) end
 function env.new_pool(pointer) return ffi.gc(PoolBox(pointer), end_pool) end
 function env.new_store(pointer) return ffi.gc(StoreBox(pointer), end_store) end
 function env.store_of(pointer, world)
@@ -85,7 +108,8 @@ core.to_u64, core.from_u64 = env.to_u64, env.from_u64
 -- what the C module has otherwise, or not at all
 local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
-    fe_asset_save = true, fe_asset_load = true,
+    fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
+    fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
 }
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do
@@ -107,6 +131,8 @@ for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
         end
     end
 end
+
+require("feather.ffi_bytes")(core, env)
 
 -- ---- geometries: the inline functions of the header -----------------------------------------------------------------
 
@@ -157,26 +183,6 @@ for name, type in pairs({
     end
 end
 function core.geometry_set_scale(made, x, y, z) env.put_vec3(made.scale, { x, y, z }, 0) end
-
--- ---- bytes of assets: strings --------------------------------------------------------------------------------------
-
--- Its size too, as the C module has it.
-function core.asset_save(store, asset)
-    local pointer, id = env.store(store), env.integer(asset, 0, 2 ^ 53, "asset")
-    local size = tonumber(C.fe_asset_save(pointer, id, nil, 0))
-    if size < 0 then env.check(size) end
-    local bytes = ffi.new("char[?]", size)
-    size = tonumber(C.fe_asset_save(pointer, id, bytes, size))
-    if size < 0 then env.check(size) end
-    return size, ffi.string(bytes, size)
-end
-local loaded = ffi.new("fe_asset[1]")
-function core.asset_load(store, bytes)
-    local pointer = env.store(store)
-    if type(bytes) ~= "string" then fail("bytes: a string is needed, not a %s", type(bytes)) end
-    env.check(tonumber(C.fe_asset_load(pointer, bytes, #bytes, loaded)))
-    return tonumber(loaded[0])
-end
 
 -- ---- drawing into the caller's own array ----------------------------------------------------------------------------
 

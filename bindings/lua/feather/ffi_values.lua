@@ -8,7 +8,10 @@ return function(env)
 local C = env.C
 
 function env.check(result)
-    if result < 0 then error(position() .. ffi.string(C.fe_last_error()), 0) end
+    if result < 0 then
+        local sentence = ffi.string(C.fe_last_error())
+        error(position() .. sentence, 0)
+    end
     return result
 end
 function env.number(value, name)

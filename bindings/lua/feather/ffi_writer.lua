@@ -125,6 +125,7 @@ local function write_box(f, p)
     add(f.upvalues, "local %s = ffi.new(%q)", p.o, p.kind .. " *[1]")
     add(f.call, p.o)
     if f.name == "fe_world_get_store" then add(f.results, "store_of(%s[0], a1)", p.o)
+    elseif p.kind == "fe_world" then add(f.results, "new_world(%s[0], a1)", p.o) -- behind its definition
     else add(f.results, "new%s(%s[0])", p.kind:sub(3), p.o) end
 end
 

@@ -3,7 +3,9 @@
 -- module feather.core, for LuaJIT on feather.ffi. Both have the functions of feather.h, see docs/lua.md. Metres,
 -- kilograms, seconds, radians; rotations are x, y, z, w.
 local core = require("feather.native").core
+local options = require("feather.options")
 local shared = require("feather.store")
+local snapshots = require("feather.snapshot")
 local worlds = require("feather.world")
 require("feather.body")
 require("feather.shape")
@@ -12,11 +14,13 @@ require("feather.joint")
 require("feather.query")
 require("feather.draw")
 
-local version = core.version()
 return {
     _core = core,
-    VERSION = string.format("%d.%d.%d", math.floor(version / 65536), math.floor(version / 256) % 256, version % 256),
+    VERSION = options.version_text(core.version()),
     newWorld = worlds.new,
     newPool = shared.new_pool,
     newStore = shared.new_store,
+    loadWorld = snapshots.load,
+    checkSnapshot = snapshots.check,
+    getSnapshotAssets = snapshots.get_assets,
 }

@@ -38,6 +38,19 @@ end
 
 function objects.weak() return setmetatable({}, { __mode = "v" }) end
 
+local function is_alive(world, id)
+    return core.body_is_valid(world, id) ~= 0 or core.shape_is_valid(world, id) ~= 0 or
+        core.joint_is_valid(world, id) ~= 0
+end
+-- After a restore: what is no more. Its handle may be given again, to something without its user data.
+function objects.forget_ended(world)
+    for _, kept in ipairs({ world.objects, world.data }) do
+        for id in pairs(kept) do
+            if id ~= 0 and not is_alive(world.native, id) then kept[id] = nil end
+        end
+    end
+end
+
 -- The handle of an object of this world.
 function objects.handle(world, thing, class)
     if type(thing) ~= "table" or getmetatable(thing) ~= class then

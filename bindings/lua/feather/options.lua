@@ -96,12 +96,17 @@ local CODED = {
     events = { put = options.event_bits, read = options.event_words },
     linear_locks = AXIS_LETTERS, angular_locks = AXIS_LETTERS,
 }
+function options.version_text(number)
+    return string.format("%d.%d.%d", math.floor(number / 65536), math.floor(number / 256) % 256, number % 256)
+end
+CODED.library = { read = options.version_text } -- of a snapshot
 for name in ([[awake sleep_allowed enabled bullet trigger pair_filter one_way collide_connected limit_enabled
-    cone_enabled sleep_enabled continuous_enabled warm_start_enabled]]):gmatch("%S+") do CODED[name] = switch end
+    cone_enabled sleep_enabled continuous_enabled warm_start_enabled new_number foreign filter]]):gmatch("%S+") do CODED[name] = switch end
 local CODED_STRUCTS = {
     fe_world_def = true, fe_world_tuning = true, fe_body_def = true, fe_shape_def = true, fe_material = true,
     fe_joint_axis = true, fe_joint_def = true, fe_distance_joint_def = true, fe_ball_joint_def = true,
     fe_hinge_joint_def = true, fe_fixed_joint_def = true, fe_configurable_joint_def = true,
+    fe_restore_options = true, fe_snapshot_info = true,
 }
 
 -- ---- vectors --------------------------------------------------------------------------------------------------------

@@ -54,6 +54,8 @@ for _, class in ipairs({ Heightfield, Hull, Mesh, objects.Compound }) do
     function class:getStore() return self.store end
     -- a string for Store:load, the same on every machine; an error for a compound: save the assets of its parts
     function class:save() return (select(2, core.asset_save(self.native, self.id))) end
+    -- 32 hexadecimal digits: equal content has equal keys, on every machine
+    function class:getKey() return core.asset_get_key(self.native, self.id) end
 end
 
 local CLASSES = {

@@ -15,7 +15,8 @@ local function check_class(value, class, what)
     return value
 end
 
-function worlds.new(given)
+-- A world's definition, and the world without its native.
+function worlds.definition(given)
     local def, pool, store, data = core.world_def(), nil, nil, nil
     for name, value in pairs(given or {}) do
         if name == "workers" then options.put(def, "fe_world_def", "workerCount", value)
@@ -26,10 +27,13 @@ function worlds.new(given)
     end
     if pool then native.set_pool(def, pool.native) end
     if store then native.set_store(def, store.native) end
-    return setmetatable({
-        native = core.world_create(def), pool = pool, store = store, data = { [0] = data }, callbacks = {},
-        objects = objects.weak(),
-    }, World)
+    return def, { pool = pool, store = store, data = { [0] = data }, callbacks = {}, objects = objects.weak() }
+end
+
+function worlds.new(given)
+    local def, world = worlds.definition(given)
+    world.native = core.world_create(def)
+    return setmetatable(world, World)
 end
 
 function World:destroy()
