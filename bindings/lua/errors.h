@@ -52,10 +52,11 @@ static int fail(lua_State *L, const char *format, ...)
     return lua_error(L);
 }
 
-/// Raises the library's last error. It is copied first: what Lua allocates may run a finalizer, whose call may be refused.
+/// Raises the library's last error. It is copied first: what Lua allocates may run a finalizer, whose call may be
+/// refused.
 static int raise_last(lua_State *L)
 {
-    char sentence[512]; // no sentence of the library is longer
+    char sentence[512]; // more than the library keeps
     snprintf(sentence, sizeof sentence, "%s", fe_last_error());
     return fail(L, "%s", sentence);
 }

@@ -585,7 +585,7 @@ end
 function TestCore.testRandomMethods()
     local seconds, random = tonumber(os.getenv("FUZZ_SECONDS") or "1"), dice(7)
     local function number() return (random(2000) - 1000) / 300 end
-    local kept = {}
+    local kept, saved = {}, nil
     local function value()
         local kind = random(12)
         if kind <= 3 then return kept[random(#kept)] end
@@ -596,7 +596,7 @@ function TestCore.testRandomMethods()
             { "heightfield", kept[random(#kept)] }, { mask = 1, triggers = true, exclude = { kept[random(#kept)] } }, { kept[random(#kept)] },
             { "touch", "hit" }, { density = number(), colour = 1 }, { pairFilter = true, oneWay = true },
             function(...) return random(2) == 1 or error(...) end, { type = "kinematic", position = { 0, number(), 0 } }, print, io.stdout,
-            { rows = 2, columns = 2, heights = { 0, 0, 0, number() } }, { "compound", kept[random(#kept)] },
+            { rows = 2, columns = 2, heights = { 0, 0, 0, number() } }, { "compound", kept[random(#kept)] }, saved, { assets = true },
             { { "sphere", 0.5, density = number() }, { "box", 1, 1, 1, position = { 0, number(), 0 }, material = { friction = number() } } },
             { rows = 2, columns = 2, heights = { 0, 0, 0, 0 }, materials = { { userId = number(), frictionCombine = "minimum" } } }, { linearX = { motion = "free", lower = number() } }, { motorSpeed = number() },
             { bodyA = kept[random(#kept)], bodyB = kept[random(#kept)], point = { 0, 0, 0 }, axis = { 0, 0, 1 }, pointA = { 0, 0, 0 },
@@ -610,7 +610,7 @@ function TestCore.testRandomMethods()
         local world, _, ball = scene()
         local other, _, theirs = scene()
         local store = feather.newStore()
-        kept = { world, ball, ball:getShapes()[1], other, theirs, store, world:getStore() }
+        kept, saved = { world, ball, ball:getShapes()[1], other, theirs, store, world:getStore() }, world:save({ assets = true })
         for i = 6, 7 do kept[i + 2] = kept[i]:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }) end
         kept[#kept + 1] = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } })
         for _ = 1, 300 do
