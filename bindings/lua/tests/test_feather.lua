@@ -417,6 +417,19 @@ function TestErrors.testNoThreadOutlivesTheState()
     if threads(1) then lu.assertEquals(io.popen(arg[-1] .. ' -e "' .. text:gsub("\n", " ") .. '"'):read("*a"), "1") end
 end
 
+-- A pool and a store whose finalizers come before that of their world wait for it: the sentence of a call that is
+-- refused would stand where the script's own error stood.
+function TestErrors.testFinalizersLeaveTheError()
+    local _, _, ball = scene()
+    local pause = collectgarbage("setpause", 50) -- the collector never rests
+    local natives = {}
+    for i = 1, 100 do
+        natives[i] = feather.newWorld({ pool = feather.newPool(1), store = feather.newStore() }).native
+        for _ = 1, 20 do fails("fe_body_set_mass", ball.setMass, ball, -1) end
+    end
+    collectgarbage("setpause", pause)
+end
+
 function TestErrors.testForeignObjects()
     local world, _, ball = scene()
     local _, _, other = scene()
