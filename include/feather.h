@@ -1781,7 +1781,7 @@ FE_API void fe_save_options_init(fe_save_options *options, uint32_t struct_size)
 /// shapes, joints, contacts, who is awake, pending forces, the events of the last step, user data, and which handles
 /// come next. Not in it are workers, pool, allocator, SIMD set, profile, counters, and the pair filter, which is yours.
 /// @param options   NULL: the defaults
-/// @param out       at any alignment; NULL, 0 asks for the size only, in constant time unless assets are written, too
+/// @param out       at any alignment; NULL, 0 asks for the size only, in the time of a walk over the awake pairs
 /// @param capacity  bytes; with less than the size nothing is written
 /// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED with FE_SAVE_ASSETS for a world with compounds
 FE_API int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity);

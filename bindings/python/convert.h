@@ -517,6 +517,13 @@ static int to_material(PyObject *object, fe_material *material, const char *what
 enum { MAX_VIEWS = 6 };
 enum { RAY_SIZE = offsetof(fe_ray, reserved), PATH_SIZE = offsetof(fe_path, turn) };
 
+static PyObject *from_key(const fe_asset_key *key)
+{
+    char text[33];
+    snprintf(text, sizeof text, "%016llx%016llx", (unsigned long long)key->words[0], (unsigned long long)key->words[1]);
+    return PyUnicode_FromString(text);
+}
+
 /// The buffers that a call borrows, and how many records each has room for.
 typedef struct call_state {
     int views;

@@ -263,6 +263,10 @@ FE_OUT_SMALL(fe_material, material, out_material)
 %typemap(freearg) SWIGTYPE *RECORD "free($1);"
 %enddef
 FE_GIVE_RECORD(OUT_RECORD, result == FE_OK)
+// that of a library whose results differ, too
+%typemap(in, numinputs=0) SWIGTYPE *OUT_INFO = SWIGTYPE *OUT_RECORD;
+FE_GIVE_RECORD(OUT_INFO, result >= 0)
+%apply SWIGTYPE *OUT_INFO { fe_snapshot_info *out_info };
 FE_GIVE_RECORD(OUT_HIT, result > 0)
 FE_OUT_RECORDS
 FE_OUT_HITS
@@ -390,20 +394,21 @@ FE_RECORDS(const fe_compound_part *parts, "parts: parts of a compound")
     call1.count = length;
 }
 
-// bytes of an asset: written into an object of Python's, whose size is asked for first
+// bytes of an asset or a world: written into an object of Python's, whose size is asked for first
 %typemap(in, numinputs=0) (void *out, int64_t capacity) (PyObject *saved = NULL) "$1 = NULL; $2 = 0;"
 %typemap(argout) (void *out, int64_t capacity) %{
     $result = saved$argnum;
     saved$argnum = NULL;
 %}
 %typemap(freearg) (void *out, int64_t capacity) "Py_XDECREF(saved$argnum);"
-%typemap(out) int64_t fe_asset_save {
+%define FE_SAVES(NAME)
+%typemap(out) int64_t NAME {
     if ($1 < 0) {
         raise_result((int32_t)$1);
         SWIG_fail;
     }
 }
-%exception fe_asset_save {
+%exception NAME {
     $action
     if (result > 0) {
         saved3 = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)result);
@@ -413,12 +418,32 @@ FE_RECORDS(const fe_compound_part *parts, "parts: parts of a compound")
         $action
     }
 }
-%typemap(in) (const void *bytes, int64_t size) {
+%enddef
+FE_SAVES(fe_asset_save)
+FE_SAVES(fe_world_save)
+%typemap(arginit) (const void *bytes, int64_t size) "begin_call(&call$argnum);"
+%typemap(freearg) (const void *bytes, int64_t size) "end_call(&call$argnum);"
+%typemap(in) (const void *bytes, int64_t size) (call_state call) {
     const void *array;
-    if (to_input(&call1, $input, 1, "", "$1_name", &array)) SWIG_fail;
+    if (to_input(&call, $input, 1, "", "$1_name", &array)) SWIG_fail;
     $1 = ($1_ltype)array;
-    $2 = call1.count;
+    $2 = call.count;
 }
+// True: it goes on bit for bit
+%typemap(out) fe_result fe_world_restore {
+    if ($1 < 0) {
+        raise_result($1);
+        SWIG_fail;
+    }
+    $result = PyBool_FromLong($1 == FE_OK);
+}
+// keys are strings of 32 hexadecimal digits; an asset of the store is found by its key without being named
+%ignore fe_restore_options::keys;
+%ignore fe_restore_options::assets;
+%ignore fe_restore_options::asset_count;
+%ignore fe_asset_key;
+FE_OUT(fe_asset_key *out_key, from_key($1))
+FE_OUTPUT(fe_asset_key *out_keys, sizeof *$1, "")
 
 // read from packed buffers, see records.py
 %ignore fe_ray;

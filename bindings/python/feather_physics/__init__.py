@@ -67,10 +67,12 @@ from .records import (
     Plane,
     Profile,
     Scaled,
+    SnapshotInfo,
     Sphere,
     Tuning,
     Vector,
 )
+from .snapshot import snapshot_assets, snapshot_info
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .world import Pool, World
 
@@ -128,6 +130,7 @@ __all__ = [
     "Quat",
     "Scaled",
     "Shape",
+    "SnapshotInfo",
     "Sphere",
     "StaleHandleError",
     "StateError",
@@ -141,5 +144,7 @@ __all__ = [
     "VersionError",
     "World",
     "WrongKindError",
+    "snapshot_assets",
+    "snapshot_info",
 ]
 __version__ = ".".join(str(_flat.version() >> shift & 0xFF) for shift in (16, 8, 0))

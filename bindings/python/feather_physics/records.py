@@ -281,6 +281,22 @@ class Contact(NamedTuple):
     triangle_b: int
 
 
+class SnapshotInfo(NamedTuple):
+    """What a snapshot says of itself; see fe_snapshot_info in feather.h. `foreign`: made by a library whose results
+    differ from this one's. `inside`: so many of the assets are in the bytes."""
+
+    library: int
+    foreign: bool
+    number: int
+    step: int
+    bodies: int
+    shapes: int
+    joints: int
+    assets: int
+    inside: int
+    filter: bool
+
+
 class HullInfo(NamedTuple):
     """What a hull is; see fe_hull_info in feather.h. The inertia is that of a density of 1 kg/m3."""
 
@@ -492,6 +508,7 @@ CONTACT = Packed(
     "reserved:16x"
 )
 
+ASSET_KEY = Packed("words:2Q")
 DRAW_VERTEX = Packed("x:f y:f z:f rgba:I owner:Q")
 DRAW_INSTANCE = Packed(
     "type:i rgba:I shape:Q body:Q asset:Q position:3f rotation:4f half_extents:3f part:i reserved:12x"

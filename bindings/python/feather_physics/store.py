@@ -189,6 +189,12 @@ class Asset:
         saved: bytes = _flat.asset_save(self._store._capsule, self._id)
         return saved
 
+    @property
+    def key(self) -> str:
+        """What the asset is known by outside its store: 32 hexadecimal digits, equal where the content is."""
+        key: str = _flat.asset_get_key(self._store._capsule, self._id)
+        return key
+
     def destroy(self) -> None:
         """The handle dies at once, what it names with its last shape."""
         _flat.asset_destroy(self._store._capsule, self._id)

@@ -44,6 +44,12 @@ class Pool:
         self.close()
 
 
+def _unpickle(kind: "Type[World]", data: bytes, user_data: Dict[int, Any]) -> "World":
+    world = kind.load(data)
+    world._user_data.update(user_data)
+    return world
+
+
 class _Gravity:
     """m/s2. A change wakes all dynamic bodies."""
 
@@ -95,7 +101,10 @@ class World:
             definition.pool = pool._capsule
         if store is not None:
             definition.store = store._capsule
-        self._capsule = _flat.world_create(definition)
+        self._begin(_flat.world_create(definition), pool, store)
+
+    def _begin(self, capsule: Any, pool: Optional[Pool], store: Optional[Store]) -> None:
+        self._capsule = capsule
         _flat.world_keep(self._capsule, (pool and pool._capsule, store and store._capsule))
         self._closed = False
         self._store = Store._of(self._capsule) if store is None else store
@@ -109,6 +118,54 @@ class World:
             self._closed = True
             self._user_data.clear()
             self._pair_filter = None
+
+    def save(self, *, assets: bool = False) -> bytes:
+        """The whole world as bytes: the same on every machine, whatever the workers. What World.load() makes of them
+        goes on bit for bit. With assets their contents are inside, else their keys alone."""
+        options = _flat.save_options()
+        options.flags = _flat.FE_SAVE_ASSETS if assets else 0
+        saved: bytes = _flat.world_save(self._capsule, options)
+        return saved
+
+    def restore(self, data: Any) -> bool:
+        """Makes the world the saved one, of whichever world the bytes are. An error changes nothing. Handles of what
+        was made since are stale, and may be given again to something else: objects of such things are not to be kept.
+        False: another library saved it whose results differ, so that it goes on, but not bit for bit."""
+        same: bool = _flat.world_restore(self._capsule, None, data)
+        valid = (_flat.body_is_valid, _flat.shape_is_valid, _flat.joint_is_valid)
+        kept = [id for id in self._user_data if any(is_valid(self._capsule, id) for is_valid in valid)]
+        self._user_data = {id: self._user_data[id] for id in kept}
+        return same
+
+    @classmethod
+    def load(
+        cls,
+        data: Any,
+        *,
+        workers: int = 1,
+        simd: str = "auto",
+        number: int = 0,
+        pool: Optional[Pool] = None,
+        store: Optional[Store] = None,
+    ) -> "World":
+        """A new world from bytes of save(). All but what is given here is the saved world's; so is the number of its
+        handles, unless one is given. Assets that are not inside are looked for in the store."""
+        definition, options = _flat.world_def(), _flat.restore_options()
+        definition.worker_count = workers
+        definition.simd = word(SIMD_SETS, simd, "simd")
+        definition.number = number
+        options.new_number = number != 0
+        if pool is not None:
+            definition.pool = pool._capsule
+        if store is not None:
+            definition.store = store._capsule
+        world = cls.__new__(cls)
+        world._begin(_flat.world_load(definition, options, data), pool, store)
+        return world
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """pickle and copy.deepcopy: the world with its assets and the user data; of one worker, without a filter."""
+        return _unpickle, (type(self), self.save(assets=True), self._user_data)
 
     @property
     def closed(self) -> bool:
