@@ -48,8 +48,7 @@ static fe_result make_world(fe_world_def *def, const fe_restore_options *options
     fe_allocator allocator = {
         .struct_size = sizeof allocator, .allocate = shell_allocate, .release = shell_release, .user = shell};
     def->allocator = &allocator;
-    fe_result result =
-        bytes ? fe_world_load(def, options, bytes, size, out_world) : fe_world_create(def, out_world);
+    fe_result result = bytes ? fe_world_load(def, options, bytes, size, out_world) : fe_world_create(def, out_world);
     def->allocator = NULL;
     if (result < 0) {
         free(shell);
