@@ -32,6 +32,11 @@
     if (result < 0) FeatherException.Throw(result);
     return result;
   }
+%typemap(csout)  int64_t {
+    long result = $imcall;
+    if (result < 0) FeatherException.Throw((int)result);
+    return result;
+  }
 
 // Worlds whose memory outlives them: see shell.h.
 %{
@@ -39,4 +44,6 @@
 %}
 typedef struct fe_shell fe_shell;
 fe_result fe_shell_create_world(fe_world_def *def, fe_world **out_world, fe_shell **out_shell);
+fe_result fe_shell_load_world(fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
+                              fe_world **out_world, fe_shell **out_shell);
 void fe_shell_leave(fe_shell *shell);

@@ -10,20 +10,23 @@ import re
 import sys
 from xml.sax.saxutils import escape
 
-BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "fe_transform": "WorldTransform"}
+BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "fe_transform": "WorldTransform",
+           "fe_asset_key": "AssetKey"}
 # Some words belong to every program of Unity already: Transform, Bounds, Material, Motion.
 NAMES = {"fe_material": "SurfaceMaterial", "fe_bounds": "WorldBounds", "fe_energy": "WorldEnergy",
          "fe_profile": "StepProfile", "fe_counters": "WorldCounters", "fe_path": "SweepPath", "fe_axis": "Axes",
          "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring",
          "fe_overlap": "ShapeOverlap"}
-PRIVATE = {"fe_query_filter": "NativeFilter",  # classes around these are written by hand
-           "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh"}
+PRIVATE = {"fe_query_filter": "NativeFilter",  # what serves instead is written by hand
+           "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh",
+           "fe_save": "NativeSave", "fe_save_options": "NativeSaveOptions",
+           "fe_restore_options": "NativeRestoreOptions"}
 FOR_C = {"fe_allocator", "fe_task_system"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong"}
 SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way",
-            "kept", "own_material"}
+            "kept", "own_material", "foreign", "filter"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
 FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags",
          "fe_draw_flags"}
@@ -69,7 +72,7 @@ class Words:
         if name in self.types or name in HANDLES:
             return type_name(name) + (f".{pascal(field)}" if field else "")
         owner, _, rest = name[3:].partition("_")
-        return f"{pascal(owner)}.{pascal(rest)}"
+        return f"{pascal(owner)}.{pascal(rest)}" if rest else pascal(owner)
 
     def __call__(self, text):
         text = re.sub(r"FE_[A-Z0-9_]*[A-Z0-9]", lambda m: self.enumerators.get(m[0], m[0]), text)
@@ -89,7 +92,8 @@ def enum(name, body, doc, words):
     lines = "".join(summary(m[3] or "", words, "        ") +
                     f"        {words.enumerators[m[1]].partition('.')[2]} = {m[2]},\n" for m in items)
     flags = "    [System.Flags]\n" if name in FLAGS else ""
-    return f"{summary(doc, words, '    ')}{flags}    public enum {type_name(name)}\n    {{\n{lines}    }}\n"
+    access = "internal" if name in PRIVATE else "public"
+    return f"{summary(doc, words, '    ')}{flags}    {access} enum {type_name(name)}\n    {{\n{lines}    }}\n"
 
 
 def field_type(base, name, doc, enums):

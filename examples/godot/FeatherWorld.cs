@@ -42,6 +42,24 @@ public partial class FeatherWorld : Node3D
         return body;
     }
 
+    /// The world becomes the saved one (World.Save). Nodes of bodies that it has not got go.
+    public bool Restore(ReadOnlySpan<byte> snapshot)
+    {
+        bool exact = World.Restore(snapshot);
+        int kept = 0;
+        for (int i = 0; i < nodes.Count; ++i)
+        {
+            if (World[bodies[i]].IsValid)
+            {
+                bodies[kept] = bodies[i];
+                nodes[kept++] = nodes[i];
+            }
+            else nodes[i].QueueFree();
+        }
+        nodes.RemoveRange(kept, nodes.Count - kept);
+        return exact;
+    }
+
     public override void _PhysicsProcess(double delta)
     {
         World.Step((float)delta);

@@ -33,16 +33,22 @@ namespace FeatherPhysics
             try
             {
                 void* store = Enter(kind, ref held);
-                byte[] bytes = new byte[Checked(Native.asset_save(store, Id, null, 0))];
-                fixed (byte* start = bytes) Checked(Native.asset_save(store, Id, start, bytes.Length));
+                byte[] bytes = new byte[Native.asset_save(store, Id, null, 0)];
+                fixed (byte* start = bytes) Native.asset_save(store, Id, start, bytes.Length);
                 return bytes;
             }
             finally { Leave(held); }
         }
-        static long Checked(long size)
+        internal AssetKey Key(string kind)
         {
-            if (size < 0) FeatherException.Throw((int)size);
-            return size;
+            bool held = false;
+            try
+            {
+                AssetKey key;
+                Native.asset_get_key(Enter(kind, ref held), Id, &key);
+                return key;
+            }
+            finally { Leave(held); }
         }
         internal void* Enter(string kind, ref bool held)
         {

@@ -81,6 +81,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The compound lives until the last shape that has it is gone.</summary>
         public void Destroy() { asset.Destroy("Compound"); }
+        /// <summary>What it is known by in snapshots.</summary>
+        public AssetKey GetKey() { return asset.Key("Compound"); }
 
         /// <summary>How many parts, their bounds, memory.</summary>
         public CompoundInfo Info

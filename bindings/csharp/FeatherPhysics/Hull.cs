@@ -62,6 +62,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The hull lives until the last shape that has it is gone.</summary>
         public void Destroy() { asset.Destroy("ConvexHull"); }
+        /// <summary>What it is known by in snapshots.</summary>
+        public AssetKey GetKey() { return asset.Key("ConvexHull"); }
         /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadHull"/>.</summary>
         public byte[] Save() { return asset.Save("ConvexHull"); }
 

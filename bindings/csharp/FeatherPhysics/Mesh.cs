@@ -113,6 +113,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The mesh lives until the last shape that has it is gone.</summary>
         public void Destroy() { asset.Destroy("TriangleMesh"); }
+        /// <summary>What it is known by in snapshots.</summary>
+        public AssetKey GetKey() { return asset.Key("TriangleMesh"); }
         /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadMesh"/>.</summary>
         public byte[] Save() { return asset.Save("TriangleMesh"); }
 

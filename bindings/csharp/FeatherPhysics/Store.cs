@@ -185,6 +185,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. Its heights live until the last shape that has them is gone.</summary>
         public void Destroy() { asset.Destroy("Heightfield"); }
+        /// <summary>What it is known by in snapshots. SetHeights changes it.</summary>
+        public AssetKey GetKey() { return asset.Key("Heightfield"); }
         /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadHeightfield"/>.</summary>
         public byte[] Save() { return asset.Save("Heightfield"); }
         /// <summary>

@@ -159,6 +159,24 @@ namespace FeatherPhysics
         public override string ToString() { return "Asset 0x" + Value.ToString("x"); }
     }
 
+    /// <summary>
+    /// What an asset is known by outside its store: a fingerprint of its content. Equal content has equal keys, on
+    /// every machine.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public readonly struct AssetKey : IEquatable<AssetKey>
+    {
+        public readonly ulong Word0, Word1;
+        public AssetKey(ulong word0, ulong word1) { Word0 = word0; Word1 = word1; }
+        public bool Equals(AssetKey other) { return Word0 == other.Word0 && Word1 == other.Word1; }
+        public override bool Equals(object other) { return other is AssetKey && Equals((AssetKey)other); }
+        public override int GetHashCode() { return (Word0 ^ Word1).GetHashCode(); }
+        public static bool operator ==(AssetKey a, AssetKey b) { return a.Equals(b); }
+        public static bool operator !=(AssetKey a, AssetKey b) { return !a.Equals(b); }
+        /// <summary>32 hexadecimal digits.</summary>
+        public override string ToString() { return Word0.ToString("x16") + Word1.ToString("x16"); }
+    }
+
     public partial struct Frame
     {
         /// <summary>Without a rotation.</summary>

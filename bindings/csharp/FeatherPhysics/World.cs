@@ -1,5 +1,5 @@
 // A world: settings, bodies, the step, what is read after it. WorldLife.cs has its life, WorldFilter.cs its pair
-// filter, WorldJoints.cs its joints, WorldQueries.cs its queries.
+// filter, WorldJoints.cs its joints, WorldQueries.cs its queries, WorldSnapshot.cs its snapshots.
 using System;
 using System.Runtime.InteropServices;
 #if UNITY_5_3_OR_NEWER

@@ -68,22 +68,32 @@ namespace FeatherPhysics
         /// <param name="pool">null: workers of its own</param>
         /// <param name="store">of its heightfields; null: one of its own</param>
         public World(WorldDef def = null, Pool pool = null, Store store = null)
+            : this(def, pool, store, null, null, 0) { }
+
+        public World(Vector3 gravity) : this(new WorldDef { Gravity = gravity }) { }
+
+        /// The world that the bytes are of; null: an empty one.
+        World(WorldDef def, Pool pool, Store store, NativeRestoreOptions* options, byte* bytes, long size)
         {
             if (def == null) def = new WorldDef();
             if (store != null && store.Safe == null)
                 throw new BadArgumentException("World: the store belongs to another world; make one with new Store()");
             Hold(pool, store);
-            int size = (int)WorldDef.Size;
-            byte* copy = stackalloc byte[size];
+            int length = (int)WorldDef.Size;
+            byte* copy = stackalloc byte[length];
             IntPtr made = IntPtr.Zero, memory = IntPtr.Zero;
             fixed (uint* start = &def.StructSize)
             fixed (IntPtr* poolAt = &def.Pool, storeAt = &def.Store)
             {
-                Buffer.MemoryCopy(start, copy, size, size);
+                Buffer.MemoryCopy(start, copy, length, length);
                 if (pool != null) *(IntPtr*)(copy + ((byte*)poolAt - (byte*)start)) = pool.Safe.DangerousGetHandle();
                 if (store != null) *(IntPtr*)(copy + ((byte*)storeAt - (byte*)start)) = store.Safe.DangerousGetHandle();
             }
-            try { Native.shell_create_world(copy, &made, &memory); }
+            try
+            {
+                if (bytes == null) Native.shell_create_world(copy, &made, &memory);
+                else Native.shell_load_world(copy, options, bytes, size, &made, &memory);
+            }
             catch
             {
                 safe.Drop();
@@ -94,8 +104,6 @@ namespace FeatherPhysics
             pointer = made;
             this.store = store;
         }
-
-        public World(Vector3 gravity) : this(new WorldDef { Gravity = gravity }) { }
 
         void Hold(Pool pool, Store store)
         {

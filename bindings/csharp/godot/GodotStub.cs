@@ -46,6 +46,8 @@ namespace Godot
         public virtual void _ExitTree() { }
         public virtual void _PhysicsProcess(double delta) { }
         public void AddChild(Node child) { }
+        public bool IsFreed { get; private set; }
+        public void QueueFree() => IsFreed = true;
     }
     public class Node3D : Node
     {

@@ -1,4 +1,5 @@
-// A stand-in's mesh of Godot becomes a floor of two surfaces and a hull: the same sides count as in Godot.
+// A stand-in's mesh of Godot becomes a floor of two surfaces and a hull: the same sides count as in Godot. A node's world
+// is restored.
 using System;
 using FeatherPhysics;
 using Godot;
@@ -40,3 +41,15 @@ body.AddCompound(world.CreateCompound(crate));
 Must(Math.Abs(body.Mass - 1000 * (1 + 1.0 / 6)) < 0.1, "each surface is a part");
 Must(world.Raycast(new DVec3(10.9, 5, 0.9), new DVec3(0, -9, 0), out hit) && hit.Part == 0, "the cube");
 Must(world.Raycast(new DVec3(10.1, 5, 0.1), new DVec3(0, -9, 0), out hit) && hit.Part == 1, "the pyramid");
+
+// a body that the restored world has not got takes its node with it
+var scene = new FeatherWorld();
+scene._EnterTree();
+Node3D first = new(), late = new();
+scene.Follow(scene.World.CreateDynamic(new DVec3(1, 0, 0)), first);
+byte[] saved = scene.World.Save();
+scene.Follow(scene.World.CreateDynamic(new DVec3(2, 0, 0)), late);
+Must(scene.Restore(saved) && late.IsFreed && !first.IsFreed, "one node goes");
+scene._PhysicsProcess(0);
+Must(first.Position.X == 1, "the other follows its body");
+scene._ExitTree();

@@ -66,7 +66,7 @@ namespace FeatherPhysics.Tests
                 GC.KeepAlive(sum);
             }
             PrintBulk();
-            Console.WriteLine("10000 steps with queries and events allocate {0} bytes", BytesOfSteps(10000));
+            Console.WriteLine("10000 steps with queries, events and snapshots allocate {0} bytes", BytesOfSteps(10000));
         }
 
         static void PrintBulk()
@@ -101,7 +101,7 @@ namespace FeatherPhysics.Tests
             return world;
         }
 
-        /// Bytes that this thread allocates while a world steps and is asked everything.
+        /// Bytes that this thread allocates while a world steps, is asked everything, saved and restored.
         public static long BytesOfSteps(int steps)
         {
             Body[] body = new Body[12];
@@ -115,6 +115,7 @@ namespace FeatherPhysics.Tests
             long told = 0, before = 0;
             using (World world = Busy(body))
             {
+                byte[] saved = new byte[2 * world.GetSnapshotSize() + 65536]; // contacts come
                 for (int i = -200; i < steps; ++i)
                 {
                     if (i == 0) before = GC.GetAllocatedBytesForCurrentThread();
@@ -134,6 +135,8 @@ namespace FeatherPhysics.Tests
                         Compound made = world.CreateCompound(parts);
                         told += made.Info.PartCount + (int)made.GetPart(1).UserData;
                         made.Destroy();
+                        int size = world.Save(saved);
+                        if (world.Restore(saved.AsSpan(0, size))) told += size;
                     }
                     told += world.BodyEvents.Length + world.HitEvents.Length + world.JointEvents.Length;
                     told += world.GetMoved(bodies, at) + body[0].GetContacts(contacts);

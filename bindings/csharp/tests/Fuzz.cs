@@ -20,6 +20,7 @@ namespace FeatherPhysics.Tests
         readonly World[] worlds = new World[3];
         readonly Dictionary<Type, object[]> made = new Dictionary<Type, object[]>();
         readonly List<MethodInfo> methods = new List<MethodInfo>();
+        byte[] saved = new byte[0];
         public long Calls, Refused;
 
         public Fuzz(int seed)
@@ -171,6 +172,26 @@ namespace FeatherPhysics.Tests
             return array;
         }
 
+        void Save(World world)
+        {
+            bool withAssets = random.Next(2) == 0;
+            byte[] room = new byte[world.GetSnapshotSize(withAssets) - random.Next(2)];
+            if (world.Save(room, withAssets) != room.Length) throw new LawBrokenException("not as long as it said");
+            saved = room;
+        }
+
+        /// In any world, and beside all: what was saved, or a byte of it altered.
+        void Restore(World world)
+        {
+            byte[] bytes = (byte[])saved.Clone();
+            if (bytes.Length > 0 && random.Next(2) == 0)
+                bytes[random.Next(random.Next(2) == 0 ? Math.Min(48, bytes.Length) : bytes.Length)] ^= 4;
+            world.Restore(bytes, (RestoreOptions)Value(typeof(RestoreOptions)));
+            Snapshot.Check(bytes);
+            Calls += Snapshot.GetAssets(bytes, Some<AssetKey>());
+            World.Load(bytes, null, null, random.Next(2) == 0 ? world.Store : null).Dispose();
+        }
+
         void CallWithSpans()
         {
             World world = worlds[random.Next(worlds.Length)];
@@ -183,7 +204,7 @@ namespace FeatherPhysics.Tests
             int n = random.Next(-1, 6);
             try
             {
-                switch (random.Next(20))
+                switch (random.Next(22))
                 {
                     case 0: world.RaycastAll(a, b, Some<Hit>(), filter); break;
                     case 1: world.RaycastMany(Some<Ray>(), Some<Hit>(), filter, n > 2); break;
@@ -208,6 +229,8 @@ namespace FeatherPhysics.Tests
                     case 15: body.GetShapes(Some<ShapeHandle>()); body.GetJoints(Some<JointHandle>()); break;
                     case 16: field.SetHeights(n, n, random.Next(9), n, Some<float>()); break;
                     case 17: field.GetHeights(n, random.Next(9), n, n, Some<float>()); break;
+                    case 20: Save(world); break;
+                    case 21: Restore(world); break;
                     case 18: world.GetBodies(Some<BodyHandle>()); world.GetJoints(Some<JointHandle>()); break;
                     default:
                         Calls += world.PairEvents.Length + world.BodyEvents.Length;

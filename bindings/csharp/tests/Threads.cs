@@ -108,6 +108,16 @@ namespace FeatherPhysics.Tests
                 }
                 Joint = World.CreateBallJoint(Bodies[0], Bodies[1], Bodies[0].Position, new Vector3(1, 0, 0));
                 World.Step(1f / 60);
+                Saved = World.Save();
+            }
+
+            public byte[] Saved;
+
+            /// Refused beside readers, or the world is as it was.
+            public void StepAndRestore()
+            {
+                World.Step(1f / 60);
+                World.Restore(Saved);
             }
 
             public double Read()
@@ -118,12 +128,13 @@ namespace FeatherPhysics.Tests
                 sum += World.PairEvents.Length + Joint.State.Angle + World.Counters.Bodies;
                 float[] height = new float[1];
                 Field.GetHeights(3, 3, 1, 1, height);
+                sum += World.Save(new byte[World.GetSnapshotSize()]);
                 if (Bodies[9].IsValid && Joint.IsValid && Field.IsValid) ++sum;
                 return sum + height[0];
             }
         }
 
-        /// Worlds are disposed of while threads read them, and step them.
+        /// Worlds are disposed of while threads read them, step them, and restore them.
         public static void DisposeUnderReaders(double seconds)
         {
             Count count = new Count();
@@ -137,7 +148,7 @@ namespace FeatherPhysics.Tests
                 Thread[] thread = new Thread[worlds % 3 + 1];
                 for (int i = 0; i < thread.Length; ++i)
                     thread[i] = Start(() => scene.Read(), until, count, failure);
-                Thread stepper = worlds % 4 == 3 ? Start(() => scene.World.Step(1f / 60), until, count, failure) : null;
+                Thread stepper = worlds % 4 == 3 ? Start(scene.StepAndRestore, until, count, failure) : null;
                 if (worlds % 2 == 0) Thread.Sleep(1);
                 scene.World.Dispose();
                 foreach (Thread each in thread) each.Join();

@@ -22,6 +22,6 @@ namespace FeatherPhysics.Tests
         }
 
         [Fact]
-        public void Steps_queries_and_events_allocate_nothing() { Assert.Equal(0, Cost.BytesOfSteps(2000)); }
+        public void Steps_queries_events_and_snapshots_allocate_nothing() { Assert.Equal(0, Cost.BytesOfSteps(2000)); }
     }
 }

@@ -1,0 +1,172 @@
+// Snapshots: a world as bytes, and back. The layer keeps nothing of a world's bodies, shapes and joints but the handles
+// in their values, and the library judges those: a restore leaves nothing here to mend.
+using System;
+using System.Runtime.InteropServices;
+
+namespace FeatherPhysics
+{
+    /// <summary>How a snapshot is restored.</summary>
+    public sealed class RestoreOptions
+    {
+        /// <summary>Handles have the world's own number, not that of the saved one.</summary>
+        public bool NewNumber;
+        /// <summary>
+        /// Keys of assets that are not looked for: those in <see cref="Assets"/> stand for them. null: none.
+        /// </summary>
+        public AssetKey[] Keys;
+        /// <summary>An asset of the world's store for each key.</summary>
+        public AssetHandle[] Assets;
+    }
+
+    /// <summary>What a snapshot says of itself, without a world.</summary>
+    public static unsafe class Snapshot
+    {
+        /// <summary>
+        /// Every check of a restore but for assets that are not in the bytes: BadDataException, NewerVersionException.
+        /// </summary>
+        public static SnapshotInfo Check(ReadOnlySpan<byte> bytes)
+        {
+            SnapshotInfo info;
+            Native.snapshot_info_init(&info, (uint)sizeof(SnapshotInfo));
+            byte none = 0;
+            fixed (byte* start = &MemoryMarshal.GetReference(bytes))
+                Native.snapshot_check(OrEmpty(start, &none), bytes.Length, &info);
+            return info;
+        }
+
+        /// <summary>
+        /// The keys of the assets that a snapshot needs, each once for each scale that it is used with. Returns how
+        /// many there are.
+        /// </summary>
+        public static int GetAssets(ReadOnlySpan<byte> bytes, Span<AssetKey> keys)
+        {
+            byte none = 0;
+            fixed (byte* start = &MemoryMarshal.GetReference(bytes))
+            fixed (AssetKey* out_ = &MemoryMarshal.GetReference(keys))
+                return Native.snapshot_get_assets(OrEmpty(start, &none), bytes.Length, out_, (uint)sizeof(AssetKey),
+                    keys.Length);
+        }
+
+        /// An empty span has no start, and the library takes none.
+        internal static byte* OrEmpty(byte* start, byte* none) { return start == null ? none : start; }
+    }
+
+    public sealed unsafe partial class World
+    {
+        long Write(byte* destination, long capacity, bool withAssets)
+        {
+            NativeSaveOptions options;
+            Native.save_options_init(&options, (uint)sizeof(NativeSaveOptions));
+            if (withAssets) options.Flags = NativeSave.Assets;
+            long size = Native.world_save(P, &options, destination, capacity);
+            GC.KeepAlive(this);
+            return size;
+        }
+
+        /// <summary>Bytes that <see cref="Save(Span{byte}, bool)"/> would write now.</summary>
+        /// <param name="withAssets">see there</param>
+        public long GetSnapshotSize(bool withAssets = false) { return Write(null, 0, withAssets); }
+
+        /// <summary>
+        /// Writes the world as bytes, between two calls: all that decides how it goes on, and what it tells of the last
+        /// step. The same state gives the same bytes on every machine. Not in them are workers, pool, store, SIMD set
+        /// and the pair filter. Returns how many there are; BadArgumentException when they do not fit.
+        /// </summary>
+        /// <param name="destination">begins with them afterwards</param>
+        /// <param name="withAssets">
+        /// The contents of its assets are in the bytes, too: where they are loaded, none need be there.
+        /// UnsupportedException for a world with compounds. false: assets go by their keys.
+        /// </param>
+        public int Save(Span<byte> destination, bool withAssets = false)
+        {
+            long size;
+            fixed (byte* start = &MemoryMarshal.GetReference(destination))
+                size = Write(start, destination.Length, withAssets);
+            CheckLength(size, destination.Length, "World.Save", "destination");
+            return (int)size;
+        }
+        /// <summary>The same in an array of its own.</summary>
+        public byte[] Save(bool withAssets = false)
+        {
+            byte[] bytes = new byte[GetSnapshotSize(withAssets)];
+            Save(bytes, withAssets);
+            return bytes;
+        }
+
+        /// What the library takes, but for the addresses of the two arrays, which the caller pins.
+        static NativeRestoreOptions Prepare(RestoreOptions options, string where, out AssetKey[] keys,
+            out AssetHandle[] assets)
+        {
+            NativeRestoreOptions native;
+            Native.restore_options_init(&native, (uint)sizeof(NativeRestoreOptions));
+            keys = options == null ? null : options.Keys;
+            assets = options == null ? null : options.Assets;
+            native.NewNumber = options != null && options.NewNumber ? 1 : 0;
+            native.AssetCount = keys == null ? 0 : keys.Length;
+            int assetCount = assets == null ? 0 : assets.Length;
+            CheckLength(native.AssetCount, assetCount, where, "Assets");
+            CheckLength(assetCount, native.AssetCount, where, "Keys");
+            return native;
+        }
+
+        /// <summary>
+        /// Makes the world the saved one: any bytes fit any world. What was made since is not valid, and its handles
+        /// may be given again to something else. Store, workers and pair filter stay. A call that throws has changed
+        /// nothing. Bytes from anywhere may be given: BadDataException, NewerVersionException for what is not sound,
+        /// WrongStateException when an asset is missing, or when the saved world had a pair filter and this one has
+        /// none.
+        /// </summary>
+        /// <param name="bytes">of Save(); nothing keeps them</param>
+        /// <param name="options">null: the defaults</param>
+        /// <returns>
+        /// true: it goes on bit for bit. false: it goes on otherwise, for a library saved it whose results differ
+        /// </returns>
+        public bool Restore(ReadOnlySpan<byte> bytes, RestoreOptions options = null)
+        {
+            byte none = 0;
+            AssetKey[] keys;
+            AssetHandle[] assets;
+            NativeRestoreOptions native = Prepare(options, "World.Restore", out keys, out assets);
+            fixed (byte* start = &MemoryMarshal.GetReference(bytes))
+            fixed (AssetKey* keysAt = keys)
+            fixed (AssetHandle* assetsAt = assets)
+            {
+                native.Keys = (IntPtr)keysAt;
+                native.Assets = (IntPtr)assetsAt;
+                int result = Native.world_restore(P, &native, Snapshot.OrEmpty(start, &none), bytes.Length);
+                GC.KeepAlive(this);
+                return result == (int)Result.Ok;
+            }
+        }
+
+        /// <summary>
+        /// A new world from the bytes, see <see cref="Restore"/>. <see cref="Snapshot.Check"/> tells whether it goes on
+        /// bit for bit. WrongStateException when the saved world had a pair filter: make a world, set its filter, then
+        /// restore.
+        /// </summary>
+        /// <param name="bytes">of Save(); nothing keeps them</param>
+        /// <param name="def">
+        /// Its workers and SIMD set count, and with <see cref="RestoreOptions.NewNumber"/> its number; all else is the
+        /// saved world's. null: the defaults
+        /// </param>
+        /// <param name="pool">null: workers of its own</param>
+        /// <param name="store">where its assets are; null: a store of its own</param>
+        /// <param name="options">null: the defaults</param>
+        public static World Load(ReadOnlySpan<byte> bytes, WorldDef def = null, Pool pool = null, Store store = null,
+            RestoreOptions options = null)
+        {
+            byte none = 0;
+            AssetKey[] keys;
+            AssetHandle[] assets;
+            NativeRestoreOptions native = Prepare(options, "World.Load", out keys, out assets);
+            fixed (byte* start = &MemoryMarshal.GetReference(bytes))
+            fixed (AssetKey* keysAt = keys)
+            fixed (AssetHandle* assetsAt = assets)
+            {
+                native.Keys = (IntPtr)keysAt;
+                native.Assets = (IntPtr)assetsAt;
+                return new World(def, pool, store, &native, Snapshot.OrEmpty(start, &none), bytes.Length);
+            }
+        }
+    }
+}
