@@ -149,12 +149,17 @@ static int32_t read_section(fe__snapshot *s, int64_t at, section *out)
     return 1;
 }
 
+static int32_t is_known(const section *in, uint32_t type)
+{
+    return in->type == type && in->version == 1 && in->flags == 0;
+}
+
 static int32_t read_table(fe__snapshot *s, const section *in, uint32_t number)
 {
     const fe__table *table = fe__tables + number;
     const unsigned char *at = in->content;
     int64_t where = at - s->bytes;
-    if (in->type != number || in->version != 1)
+    if (!is_known(in, number))
         return fe__snapshot_refuse(s, "byte %lld: section %u, version %u stands where %s must be", (long long)where,
                                    (unsigned)in->type, (unsigned)in->version, table->name);
     uint64_t rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
@@ -177,7 +182,7 @@ static int32_t read_sections(fe__snapshot *s)
         section in = {0};
         if (!read_section(s, at, &in)) return 0;
         if (i < FE__TABLES && !read_table(s, &in, i)) return 0;
-        if (i >= FE__TABLES && in.type == FE__SECTION_ASSET) {
+        if (i >= FE__TABLES && is_known(&in, FE__SECTION_ASSET)) {
             if (!s->asset_count++) s->assets_at = at;
         } else if (i >= FE__TABLES && !(in.flags & FE__SECTION_MAY_SKIP))
             return fe__snapshot_refuse(s, "byte %lld: section %u is unknown", (long long)at, (unsigned)in.type);
