@@ -1824,10 +1824,12 @@ typedef struct fe_snapshot_info {
     int32_t foreign;  ///< 1: its results differ from this library's
     uint32_t number;  ///< of the world
     int64_t step;     ///< how many steps there had been
-    int32_t bodies, shapes, joints;
-    int32_t assets; ///< that shapes have
-    int32_t inside; ///< of them, those whose contents are in the bytes
-    int32_t filter; ///< 1: the world had a pair filter
+    int32_t bodies;   ///< how many
+    int32_t shapes;   ///< how many
+    int32_t joints;   ///< how many
+    int32_t assets;   ///< that shapes have
+    int32_t inside;   ///< of them, those whose contents are in the bytes
+    int32_t filter;   ///< 1: the world had a pair filter
 } fe_snapshot_info;
 
 FE_API void fe_snapshot_info_init(fe_snapshot_info *info, uint32_t struct_size);
