@@ -1757,7 +1757,7 @@ FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, con
 /// What an asset is known by outside its store: a fingerprint of its content. Equal content has equal keys, on every
 /// machine. An edited heightfield has another key.
 typedef struct fe_asset_key {
-    uint64_t words[2];
+    uint64_t words[2]; ///< nothing but equal or not
 } fe_asset_key;
 
 /// @return FE_ERROR_STALE, FE_ERROR_KIND as for any asset
@@ -1769,6 +1769,7 @@ typedef enum fe_save {
     FE_SAVE_FORCE32 = 0x7fffffff
 } fe_save;
 
+/// What is saved.
 typedef struct fe_save_options {
     uint32_t struct_size;
     uint32_t flags; ///< fe_save. Default 0: assets go by their keys
@@ -1786,6 +1787,7 @@ FE_API void fe_save_options_init(fe_save_options *options, uint32_t struct_size)
 /// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED with FE_SAVE_ASSETS for a world with compounds
 FE_API int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity);
 
+/// What a restore may be told.
 typedef struct fe_restore_options {
     uint32_t struct_size;
     int32_t new_number;  ///< 1: handles have the world's own number, not that of the saved one. Default 0
