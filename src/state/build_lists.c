@@ -108,7 +108,7 @@ static int32_t count_pairs_of_parts(fe__build *b)
         ++e->pairs, ++w->part_pair_count;
         e->touching += (p->flags & FE__PAIR_TOUCHING) != 0;
         e->held += (p->flags & FE__PAIR_LINKED) != 0;
-        e->passing += (p->flags & FE__PAIR_PASSED) != 0;
+        e->passing += (p->flags & FE__PAIR_PASSING) != 0;
     }
     return 1;
 }

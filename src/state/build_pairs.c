@@ -63,8 +63,8 @@ static int32_t is_in_broad_phase(const fe_world *w, int32_t shape)
 
 enum {
     BY_NATURE = FE__PAIR_SENSOR | FE__PAIR_FLIPPED | FE__PAIR_SWAPPED | FE__PAIR_PATCH | FE__PAIR_OF_PARTS,
-    BY_STATE = FE__PAIR_TOUCHING | FE__PAIR_LINKED | FE__PAIR_ONCE | FE__PAIR_CROSSED | FE__PAIR_DENIED |
-               FE__PAIR_PASSING | FE__PAIR_PASSED
+    BY_STATE =
+        FE__PAIR_TOUCHING | FE__PAIR_LINKED | FE__PAIR_ONCE | FE__PAIR_CROSSED | FE__PAIR_DENIED | FE__PAIR_PASSING
 };
 
 static int32_t check_shapes(fe__build *b, int32_t pair)
@@ -85,8 +85,6 @@ static int32_t check_shapes(fe__build *b, int32_t pair)
     if (number >= FE__PATCHES || p->flags << FE__PAIR_NUMBER_SHIFT >> FE__PAIR_NUMBER_SHIFT & ~known ||
         (p->flags & ~(uint32_t)BY_STATE) != fe__pair_nature(w, p->shape_a, p->shape_b, (int32_t)number))
         return refuse_pair(b, pair, "its flags are not those of its shapes");
-    if (p->flags & FE__PAIR_PASSED && !(p->flags & FE__PAIR_OF_PARTS))
-        return refuse_pair(b, pair, "no encounter counts it");
     return 1;
 }
 

@@ -23,21 +23,14 @@ typedef struct collide_job {
 } collide_job;
 
 // ---- one pair ------------------------------------------------------------------------------------------------------
-// Of parts, one of them one-way: the encounter has not counted that they pass, or no longer do
-static int32_t has_changed_sides(const fe__pair *p)
-{
-    int32_t passes = (p->flags & FE__PAIR_PASSING) != 0, passed = (p->flags & FE__PAIR_PASSED) != 0;
-    return p->flags & FE__PAIR_OF_PARTS && passes != passed;
-}
-
-static int32_t judge(const fe_world *w, int32_t pair)
+static int32_t judge(const fe_world *w, int32_t pair, int32_t changes_sides)
 {
     const fe__pair *p = w->pairs + pair;
     int32_t has_points = w->contacts[pair].point_count > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
     if (!(p->flags & FE__PAIR_PATCH) && fe__boxes_part(w, p)) return FE__RESULT_APART;
     if (linked) return FE__RESULT_END;
-    return has_changed_sides(p) ? FE__RESULT_PASSES : FE__RESULT_NONE;
+    return changes_sides ? FE__RESULT_PASSES : FE__RESULT_NONE;
 }
 
 // A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than
@@ -52,11 +45,11 @@ void fe__defer_pair(const fe__step *step, int32_t pair, float slack)
     atomic_store_explicit(&step->scratch->some_deferred, 1, memory_order_relaxed);
 }
 
-static void note_result(fe__step *step, int32_t pair)
+static void note_result(fe__step *step, int32_t pair, int32_t changes_sides)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    w->pairs[pair].result = (int16_t)judge(w, pair);
+    w->pairs[pair].result = (int16_t)judge(w, pair, changes_sides);
     if (!(w->contacts[pair].point_count > 0.0f)) fe__defer_pair(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
@@ -66,11 +59,12 @@ static void note_result(fe__step *step, int32_t pair)
 static void collide_with_patches(fe__step *step, int32_t head)
 {
     fe_world *w = step->world;
-    if (w->pairs[head].next_patch < 0)
-        fe__collide_pair(step, head);
-    else
-        fe__collide_field_pair(step, head);
-    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair);
+    if (w->pairs[head].next_patch < 0) {
+        note_result(step, head, fe__collide_pair(step, head));
+        return;
+    }
+    fe__collide_field_pair(step, head);
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair, 0);
 }
 
 // up to PAIRS_IN_BLOCK of the awake pairs
@@ -149,8 +143,7 @@ static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
         if (i + OWN_AHEAD < count) fe__fetch_own(step->world, pairs[i + OWN_AHEAD]);
         if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(step->world, pairs[i + NAMED_AHEAD]);
         if (i < 0) continue;
-        fe__collide_pair(step, pairs[i]);
-        note_result(step, pairs[i]);
+        note_result(step, pairs[i], fe__collide_pair(step, pairs[i]));
     }
 }
 
@@ -237,6 +230,13 @@ static void end_contact(fe__step *step, int32_t pair)
     fe__defer_pair(step, pair, 0.0f);
 }
 
+static void change_sides(fe_world *w, int32_t pair)
+{
+    fe__pair *p = w->pairs + pair;
+    p->flags ^= FE__PAIR_PASSING;
+    if (p->flags & FE__PAIR_OF_PARTS) fe__encounter_pass(w, pair, (p->flags & FE__PAIR_PASSING) != 0);
+}
+
 // ends before beginnings, so that a colour given back can be taken in the same step
 static void apply_results(fe__step *step, int32_t first)
 {
@@ -249,7 +249,7 @@ static void apply_results(fe__step *step, int32_t first)
             end_contact(step, results[i]);
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
-        if (p->result == FE__RESULT_PASSES) fe__encounter_pass(w, results[i]);
+        if (p->result == FE__RESULT_PASSES) change_sides(w, results[i]);
         if (p->result != FE__RESULT_BEGIN) continue;
         fe__pair_link(w, results[i], step->dt);
         wake_sleeping(w, p->body_a);

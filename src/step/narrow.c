@@ -359,19 +359,20 @@ static int32_t is_held(const fe__view *v, const fe__manifold *found)
            (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
 }
 
-// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are
-// apart. What passes a part of a compound passes all that it meets in the meantime.
-static int32_t passes(const fe_world *world, int32_t pair, const fe__view *v, const fe__manifold *found)
+typedef enum sides { HOLDS, UNDECIDED, PASSES } sides;
+
+// What a one-way shape does with the other. Decided where they first meet, by the side; what passes goes on until they
+// are apart. What passes a part of a compound passes all that it meets in the meantime.
+static sides sides_of(const fe_world *world, int32_t pair, int32_t passing, const fe__view *v,
+                      const fe__manifold *found)
 {
-    fe__pair *p = world->pairs + pair;
-    if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return 0;
-    if (p->flags & FE__PAIR_PASSING) return 1;
-    if (!found->count || p->flags & FE__PAIR_LINKED) return 0;
+    const fe__pair *p = world->pairs + pair;
+    if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return HOLDS;
+    if (passing) return PASSES;
+    if (!found->count || p->flags & FE__PAIR_LINKED) return HOLDS;
     const fe__encounter *e = p->flags & FE__PAIR_OF_PARTS ? fe__encounter_of(world, pair) : NULL;
-    if (!(e && e->passing) && is_held(v, found)) return 0;
-    // what other parts hold may yet come to lie on this one
-    if (!(e && e->held && !e->passing)) p->flags |= FE__PAIR_PASSING;
-    return 1;
+    if (!(e && e->passing) && is_held(v, found)) return HOLDS;
+    return e && e->held && !e->passing ? UNDECIDED : PASSES; // what other parts hold may yet come to lie on this one
 }
 
 // some way off now, but closing within the step: the normal may turn on that way
@@ -392,8 +393,8 @@ static int32_t may_outrun(const fe__body *a, const fe__shape *x, const fe__shape
     return a->type != FE_BODY_DYNAMIC && reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
 }
 
-// 1: done. 0: it has points, which it was not to write
-static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points)
+// 1: done. 0: it has points, which it was not to write. The flags of the pair are read by others meanwhile
+static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points, int32_t *out_changes_sides)
 {
     fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
@@ -403,7 +404,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, a, b);
     fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
     fe__view v;
-    int32_t ahead = 0;
+    int32_t ahead = 0, passed = (p->flags & FE__PAIR_PASSING) != 0;
     if (p->flags & FE__PAIR_SWAPPED)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
@@ -412,11 +413,13 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     if (p->axis >= 0) found.last = kernels_normal(m, &v);
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
-    if (!found.count) p->flags &= ~(uint32_t)FE__PAIR_PASSING; // a seam may take points away from what passes
+    int32_t passing = passed && found.count; // a seam may take points away from what passes
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     int32_t axis = found.axis;
     float axis_separation = found.axis_separation;
-    if (p->flags & FE__PAIR_DENIED || passes(world, pair, &v, &found)) {
+    sides sides = p->flags & FE__PAIR_DENIED ? HOLDS : sides_of(world, pair, passing, &v, &found);
+    *out_changes_sides = passed != (sides == PASSES);
+    if (p->flags & FE__PAIR_DENIED || sides != HOLDS) {
         p->axis_separation = axis_separation;
         write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
         return 1;
@@ -447,12 +450,18 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     return 1;
 }
 
-void fe__collide_pair(const fe__step *step, int32_t pair) { collide(step, pair, 1); }
+int32_t fe__collide_pair(const fe__step *step, int32_t pair)
+{
+    int32_t changes_sides;
+    collide(step, pair, 1, &changes_sides);
+    return changes_sides;
+}
 
 int32_t fe__collide_apart(const fe__step *step, int32_t pair)
 {
     const fe__pair *p = step->world->pairs + pair;
     const fe__shape *shapes = step->world->shapes;
+    int32_t changes_sides; // of one-way shapes
     if ((shapes[p->shape_a].flags | shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
-    return collide(step, pair, 0);
+    return collide(step, pair, 0, &changes_sides);
 }

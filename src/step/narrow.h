@@ -15,8 +15,9 @@ static inline float fe__slack(float gap, float margin)
     return fe__maxf(gap - least * margin, 0.0f);
 }
 
-// The narrow phase of one pair. Only the pair is written.
-void fe__collide_pair(const fe__step *step, int32_t pair);
+// The narrow phase of one pair. Only the pair is written, and of it not the flags. Returns whether it begins or ends to
+// pass a one-way shape
+int32_t fe__collide_pair(const fe__step *step, int32_t pair);
 // The same where no points are found, 1. Where they may be, and where others could tell what it writes (one-way shapes,
 // fast bodies): nothing, 0
 int32_t fe__collide_apart(const fe__step *step, int32_t pair);

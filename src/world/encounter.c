@@ -85,12 +85,9 @@ void fe__encounter_hold(fe_world *world, int32_t pair, int32_t holds)
     fe__encounter_of(world, pair)->held += holds ? 1 : -1;
 }
 
-// The flag of the pair is what the encounter has counted
-void fe__encounter_pass(fe_world *world, int32_t pair)
+void fe__encounter_pass(fe_world *world, int32_t pair, int32_t passes)
 {
-    fe__pair *p = world->pairs + pair;
-    p->flags ^= FE__PAIR_PASSED;
-    fe__encounter_of(world, pair)->passing += p->flags & FE__PAIR_PASSED ? 1 : -1;
+    fe__encounter_of(world, pair)->passing += passes ? 1 : -1;
 }
 
 // ---- life ----------------------------------------------------------------------------------------------------------
@@ -127,7 +124,7 @@ void fe__encounter_gain(fe_world *world, int32_t pair)
 int32_t fe__encounter_lose(fe_world *world, int32_t pair)
 {
     if (world->pairs[pair].flags & FE__PAIR_TOUCHING) fe__encounter_touch(world, pair, 0);
-    if (world->pairs[pair].flags & FE__PAIR_PASSED) fe__encounter_pass(world, pair);
+    if (world->pairs[pair].flags & FE__PAIR_PASSING) fe__encounter_pass(world, pair, 0);
     fe__encounter *e = fe__encounter_of(world, pair);
     int32_t owes = e->entered;
     --world->part_pair_count;

@@ -35,7 +35,7 @@ int32_t fe__encounter_lose(fe_world *world, int32_t pair);
 // A pair begins or ceases to be a contact, or to pass a one-way shape. Never while workers look at pairs: they read
 // both counts, see step/narrow.c
 void fe__encounter_hold(fe_world *world, int32_t pair, int32_t holds);
-void fe__encounter_pass(fe_world *world, int32_t pair);
+void fe__encounter_pass(fe_world *world, int32_t pair, int32_t passes);
 // A pair begins or ceases to touch
 void fe__encounter_touch(fe_world *world, int32_t pair, int32_t touches);
 void fe__encounter_note(fe_world *world, fe__encounter *encounter); // the step shall report of it

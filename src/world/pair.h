@@ -14,10 +14,9 @@ enum {
     FE__PAIR_PATCH = 64,      // a further patch of a pair with a heightfield
     FE__PAIR_CROSSED = 128,   // a trigger that was passed between two steps
     FE__PAIR_DENIED = 256,    // the pair filter refused it: no contact, no events, until the boxes part
-    FE__PAIR_PASSING = 512,   // through a one-way shape: no contact until they are apart
+    FE__PAIR_PASSING = 512,   // through a one-way shape: no contact until they are apart. Counted by the encounter
     FE__PAIR_FREE = 1024,     // the record is no pair
     FE__PAIR_OF_PARTS = 2048, // of compounds: their events are the encounter's (encounter.h)
-    FE__PAIR_PASSED = 4096,   // of parts: counted as passing by the encounter
     // above these bits: the number of a patch, from 1; 0 of a head
     FE__PAIR_NUMBER_SHIFT = 16
 };
