@@ -159,6 +159,14 @@ void fe__write_struct(void *out, const void *full, uint32_t size);
 // Fills a definition with its defaults; a struct_size of an older client gets the front of it, the tail of a longer one
 // is zeroed.
 void fe__init_struct(void *out, const void *defaults, uint32_t size, uint32_t struct_size);
+// Of what has no other default than its size
+#define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
+    void name(type *argument, uint32_t struct_size)                         \
+    {                                                                       \
+        type defaults = {.struct_size = sizeof defaults};                   \
+        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
+    }
+
 static inline fe_transform fe__body_transform(const fe__body *body)
 {
     return (fe_transform){{body->origin[0], body->origin[1], body->origin[2]},

@@ -149,11 +149,7 @@ static fe_compound_info describe(const fe_store *store, const fe__asset *asset)
                               .bytes = (int64_t)asset->blocks[0].size};
 }
 
-void fe_compound_info_init(fe_compound_info *info, uint32_t struct_size)
-{
-    fe_compound_info defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(info, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_compound_info_init, fe_compound_info, info)
 
 fe_result fe_compound_get_info(const fe_store *store, fe_asset compound, fe_compound_info *out_info)
 {

@@ -114,11 +114,7 @@ static fe_hull_info describe(const fe__hull *h)
                           .bytes = h->size + (int64_t)sizeof(fe__asset)};
 }
 
-void fe_hull_info_init(fe_hull_info *info, uint32_t struct_size)
-{
-    fe_hull_info defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(info, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_hull_info_init, fe_hull_info, info)
 
 fe_result fe_hull_get_info(const fe_store *store, fe_asset hull, fe_hull_info *out_info)
 {

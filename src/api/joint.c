@@ -268,11 +268,7 @@ fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transfor
     return FE_OK;
 }
 
-void fe_joint_state_init(fe_joint_state *state, uint32_t struct_size)
-{
-    fe_joint_state defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(state, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_joint_state_init, fe_joint_state, state)
 
 fe_result fe_joint_get_state(const fe_world *world, fe_joint joint, fe_joint_state *out_state)
 {

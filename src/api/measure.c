@@ -7,11 +7,7 @@
 
 // ---- energy and momentum -------------------------------------------------------------------------------------------
 
-void fe_energy_init(fe_energy *energy, uint32_t struct_size)
-{
-    fe_energy defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(energy, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_energy_init, fe_energy, energy)
 
 fe_result fe_world_get_energy(const fe_world *world, fe_energy *out_energy)
 {

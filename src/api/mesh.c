@@ -177,11 +177,7 @@ static fe_mesh_info describe(const fe__asset *a)
                           .bytes = m->size + (int64_t)(sizeof *a + sizeof(fe_material) * (size_t)a->material_count)};
 }
 
-void fe_mesh_info_init(fe_mesh_info *info, uint32_t struct_size)
-{
-    fe_mesh_info defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(info, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_mesh_info_init, fe_mesh_info, info)
 
 fe_result fe_mesh_get_info(const fe_store *store, fe_asset mesh, fe_mesh_info *out_info)
 {
@@ -225,11 +221,7 @@ static fe_result read_triangle(const char *function, const fe_store *store, fe_a
     return FE_OK;
 }
 
-void fe_mesh_triangle_init(fe_mesh_triangle *triangle, uint32_t struct_size)
-{
-    fe_mesh_triangle defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(triangle, &defaults, sizeof defaults, struct_size);
-}
+FE_DEFINE_EMPTY_INIT(fe_mesh_triangle_init, fe_mesh_triangle, triangle)
 
 fe_result fe_mesh_get_triangle(const fe_store *store, fe_asset mesh, int32_t triangle, fe_mesh_triangle *out_triangle)
 {

@@ -11,16 +11,9 @@
 
 #include <string.h>
 
-#define FE_DEFINE_INIT(name, type, argument)                                \
-    void name(type *argument, uint32_t struct_size)                         \
-    {                                                                       \
-        type defaults = {.struct_size = sizeof defaults};                   \
-        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
-    }
-
-FE_DEFINE_INIT(fe_save_options_init, fe_save_options, options)
-FE_DEFINE_INIT(fe_restore_options_init, fe_restore_options, options)
-FE_DEFINE_INIT(fe_snapshot_info_init, fe_snapshot_info, info)
+FE_DEFINE_EMPTY_INIT(fe_save_options_init, fe_save_options, options)
+FE_DEFINE_EMPTY_INIT(fe_restore_options_init, fe_restore_options, options)
+FE_DEFINE_EMPTY_INIT(fe_snapshot_info_init, fe_snapshot_info, info)
 
 // ---- assets --------------------------------------------------------------------------------------------------------
 

@@ -285,13 +285,6 @@ fe_result fe_world_optimize(fe_world *world)
 
 // ---- the defaults of what is read into, and of what the host gives -------------------------------------------------
 
-#define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
-    void name(type *argument, uint32_t struct_size)                         \
-    {                                                                       \
-        type defaults = {.struct_size = sizeof defaults};                   \
-        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
-    }
-
 FE_DEFINE_EMPTY_INIT(fe_allocator_init, fe_allocator, allocator)
 FE_DEFINE_EMPTY_INIT(fe_profile_init, fe_profile, profile)
 FE_DEFINE_EMPTY_INIT(fe_counters_init, fe_counters, counters)

@@ -2,6 +2,7 @@
 #include "state/build.h"
 
 #include "core/array_sort.h"
+#include "state/rows.h"
 #include "world/joints.h"
 
 #include <string.h>
@@ -79,13 +80,29 @@ int32_t fe__build_pool(fe__build *b, fe__record_pool *pool, int32_t limit, fe__t
 }
 
 // ---- order ---------------------------------------------------------------------------------------------------------
-fe__sort_item *fe__sort_by_serial(fe__build *b, const char *what, fe__sort_item *items, int32_t count)
+// Room for 2 count items; the serials of the first half are written
+static int32_t sort_by_serial(fe__build *b, const char *what, fe__sort_item *items, int32_t count)
 {
     fe__sort_keys(items, count, items + count);
-    for (int32_t i = 1; i < count; ++i) {
-        if (items[i].key != items[i - 1].key) continue;
-        fe__snapshot_refuse(b->snapshot, "%s: two have the serial %llu", what, (unsigned long long)items[i].key);
-        return NULL;
+    for (int32_t i = 1; i < count; ++i)
+        if (items[i].key == items[i - 1].key)
+            return fe__snapshot_refuse(b->snapshot, "%s: two have the serial %llu", what,
+                                       (unsigned long long)items[i].key);
+    return 1;
+}
+
+int32_t fe__build_order(fe__build *b, const fe__ordered *what, int32_t count)
+{
+    if (count == 0) return 1;
+    size_t size = 2 * sizeof(fe__sort_item) * (size_t)count;
+    fe__sort_item *items = fe__allocate_scratch(fe__memory_of(b), size);
+    if (!items) return fe__lack_memory(b);
+    for (int32_t i = 0, slot = -1; i < count; ++i) {
+        slot = fe__next_slot(what->pool, slot, what->with_hidden);
+        items[i] = (fe__sort_item){what->serial_of(b->world, slot), slot, 0};
     }
-    return items;
+    int32_t sound = sort_by_serial(b, what->name, items, count);
+    for (int32_t i = 0; i < count && sound; ++i) sound = what->list(b, items[i].value);
+    fe__release(fe__memory_of(b), items, size);
+    return sound;
 }

@@ -32,12 +32,18 @@ int32_t fe__build_encounters(fe__build *build, const fe__world_row *row);
 int32_t fe__build_awake(fe__build *build);
 int32_t fe__build_events(fe__build *build);
 
-// ---- what they share
-// ------------------------------------------------------------------------------------------------- Slots of `count`
-// living records by their serials, which are written first. NULL: no memory, or two are the same; the caller releases 2
-// count items
-struct fe__sort_item *fe__sort_by_serial(fe__build *build, const char *what, struct fe__sort_item *items,
-                                         int32_t count);
+// ---- what they share ------------------------------------------------------------------------------------------------
+// What is listed in the order of creation
+typedef struct fe__ordered {
+    const char *name;
+    const fe__id_pool *pool;
+    int32_t with_hidden; // slots that have no handle too
+    uint64_t (*serial_of)(const fe_world *world, int32_t slot);
+    int32_t (*list)(fe__build *build, int32_t slot); // 0: refused
+} fe__ordered;
+
+// Lists all of the pool, `count` of them. 0: refused, as two have the same serial, or no memory
+int32_t fe__build_order(fe__build *build, const fe__ordered *what, int32_t count);
 static inline fe__memory *fe__memory_of(const fe__build *build) { return &build->world->memory; }
 int32_t fe__lack_memory(const fe__build *build); // returns 0
 // A pool with so many records given ever, of which those of the table wait to be given again

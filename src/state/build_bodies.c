@@ -98,8 +98,9 @@ static int32_t reserve_bodies(fe__build *b, int32_t slots)
            fe__lack_memory(b);
 }
 
-static void list_body(fe_world *w, int32_t slot)
+static int32_t list_body(fe__build *b, int32_t slot)
 {
+    fe_world *w = b->world;
     fe__body *body = w->bodies + slot;
     body->order_previous = w->last_body;
     if (w->last_body >= 0)
@@ -111,22 +112,10 @@ static void list_body(fe_world *w, int32_t slot)
     w->static_count += body->type == FE_BODY_STATIC;
     w->kinematic_count += body->type == FE_BODY_KINEMATIC;
     if (body->flags & FE__BODY_DISTURBED) w->disturbed[w->disturbed_count++] = slot;
+    return 1;
 }
 
-static int32_t list_bodies(fe__build *b, int32_t rows)
-{
-    const fe_world *w = b->world;
-    size_t size = 2 * sizeof(fe__sort_item) * (size_t)rows;
-    fe__sort_item *items = fe__allocate_scratch(fe__memory_of(b), size);
-    if (!items) return fe__lack_memory(b);
-    for (int32_t slot = 0, row = 0; row < rows; ++slot)
-        if (w->body_ids.slots[slot].next == FE_ID_ALIVE)
-            items[row++] = (fe__sort_item){w->bodies[slot].serial, slot, 0};
-    int32_t sorted = fe__sort_by_serial(b, "bodies", items, rows) != NULL;
-    for (int32_t i = 0; i < rows && sorted; ++i) list_body(b->world, items[i].value);
-    fe__release(fe__memory_of(b), items, size);
-    return sorted;
-}
+static uint64_t serial_of_body(const fe_world *w, int32_t slot) { return w->bodies[slot].serial; }
 
 int32_t fe__build_bodies(fe__build *b)
 {
@@ -143,7 +132,7 @@ int32_t fe__build_bodies(fe__build *b)
         if (!check_body(b, w->bodies + slot, slot)) return 0;
         complete_body(w, slot);
     }
-    return rows == 0 || list_bodies(b, rows);
+    return fe__build_order(b, &(fe__ordered){"bodies", &w->body_ids, 0, serial_of_body, list_body}, rows);
 }
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
@@ -187,7 +176,7 @@ static int32_t check_shape(fe__build *b, const fe__shape *shape, int32_t slot)
 {
     fe__snapshot *s = b->snapshot;
     const fe_world *w = b->world;
-    if (shape->body >= w->body_ids.slot_count || !fe__id_pool_is_alive(&w->body_ids, shape->body))
+    if (!fe__id_pool_is_alive(&w->body_ids, shape->body))
         return fe__snapshot_refuse(s, "shape in slot %d: there is no body %d", (int)slot, (int)shape->body);
     if (!fe__form_has_asset(&shape->form) && !fe__form_is_sound(&shape->form))
         return fe__snapshot_refuse(s, "shape in slot %d: it is no form", (int)slot);
@@ -238,26 +227,13 @@ static int32_t list_shape(fe__build *b, int32_t slot)
     if (shape->parent < 0) return 1;
     w->part_count += 1;
     const fe__shape *whole = w->shapes + shape->parent;
-    if (shape->parent >= w->shape_ids.slot_count || !fe__id_pool_is_alive(&w->shape_ids, shape->parent) ||
-        !fe__form_is_of_parts(&whole->form) || whole->body != shape->body ||
-        fe__serial_of_whole(shape->serial) != whole->serial)
+    if (!fe__id_pool_is_alive(&w->shape_ids, shape->parent) || !fe__form_is_of_parts(&whole->form) ||
+        whole->body != shape->body || fe__serial_of_whole(shape->serial) != whole->serial)
         return fe__snapshot_refuse(b->snapshot, "shape in slot %d: it is no part of %d", (int)slot, (int)shape->parent);
     return 1;
 }
 
-static int32_t list_shapes(fe__build *b, int32_t rows)
-{
-    const fe_world *w = b->world;
-    size_t size = 2 * sizeof(fe__sort_item) * (size_t)rows;
-    fe__sort_item *items = fe__allocate_scratch(fe__memory_of(b), size);
-    if (!items) return fe__lack_memory(b);
-    for (int32_t slot = 0, row = 0; row < rows; ++slot)
-        if (is_slot_used(&w->shape_ids, slot)) items[row++] = (fe__sort_item){w->shapes[slot].serial, slot, 0};
-    int32_t sound = fe__sort_by_serial(b, "shapes", items, rows) != NULL;
-    for (int32_t i = 0; i < rows && sound; ++i) sound = list_shape(b, items[i].value);
-    fe__release(fe__memory_of(b), items, size);
-    return sound;
-}
+static uint64_t serial_of_shape(const fe_world *w, int32_t slot) { return w->shapes[slot].serial; }
 
 int32_t fe__build_shapes(fe__build *b)
 {
@@ -269,7 +245,7 @@ int32_t fe__build_shapes(fe__build *b)
     if (!reserve_shapes(b, slots)) return 0;
     for (int32_t slot = 0, row = 0; slot < slots; ++slot)
         if (is_slot_used(&w->shape_ids, slot) && !take_shape(b, slot, row++)) return 0;
-    return rows == 0 || list_shapes(b, rows);
+    return fe__build_order(b, &(fe__ordered){"shapes", &w->shape_ids, 1, serial_of_shape, list_shape}, rows);
 }
 
 // ---- assets --------------------------------------------------------------------------------------------------------

@@ -109,9 +109,11 @@ static int32_t take_joint(fe__build *b, int32_t joint, int32_t row, rows_taken *
 }
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
-static int32_t list_joint(fe__build *b, int32_t joint)
+// Joint i has slot i - 1
+static int32_t list_joint(fe__build *b, int32_t slot)
 {
     fe_world *w = b->world;
+    int32_t joint = slot + 1;
     const fe__joint_record *r = w->joint_records + joint;
     fe__joint_add_to_body(w, joint, r->body[0]);
     fe__joint_add_to_body(w, joint, r->body[1]);
@@ -122,20 +124,7 @@ static int32_t list_joint(fe__build *b, int32_t joint)
                                (int)w->joints.joints[joint].colour, (unsigned)w->joints.joints[joint].rows);
 }
 
-static int32_t list_joints(fe__build *b, int32_t rows)
-{
-    const fe_world *w = b->world;
-    size_t size = 2 * sizeof(fe__sort_item) * (size_t)rows;
-    fe__sort_item *items = fe__allocate_scratch(fe__memory_of(b), size);
-    if (!items) return fe__lack_memory(b);
-    for (int32_t slot = 0, row = 0; row < rows; ++slot)
-        if (w->joint_ids.slots[slot].next == FE_ID_ALIVE)
-            items[row++] = (fe__sort_item){w->joints.frames[slot + 1].serial, slot + 1, 0};
-    int32_t sound = fe__sort_by_serial(b, "joints", items, rows) != NULL;
-    for (int32_t i = 0; i < rows && sound; ++i) sound = list_joint(b, items[i].value);
-    fe__release(fe__memory_of(b), items, size);
-    return sound;
-}
+static uint64_t serial_of_joint(const fe_world *w, int32_t slot) { return w->joints.frames[slot + 1].serial; }
 
 // ---- all -----------------------------------------------------------------------------------------------------------
 static int32_t check_rows(fe__build *b, int32_t rows)
@@ -167,6 +156,6 @@ int32_t fe__build_joints(fe__build *b)
     if (!check_rows(b, rows) || !reserve_joints(b, slots)) return 0;
     for (int32_t slot = 0, next = 0; slot < slots; ++slot)
         if (w->joint_ids.slots[slot].next == FE_ID_ALIVE && !take_joint(b, slot + 1, next++, &taken)) return 0;
-    if (!check_all_taken(b, &taken) || (rows && !list_joints(b, rows))) return 0;
-    return 1;
+    return check_all_taken(b, &taken) &&
+           fe__build_order(b, &(fe__ordered){"joints", &w->joint_ids, 0, serial_of_joint, list_joint}, rows);
 }

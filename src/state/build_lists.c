@@ -9,11 +9,6 @@
 
 #include <string.h>
 
-static int32_t has_body(const fe_world *w, int32_t slot)
-{
-    return slot < w->body_ids.slot_count && w->body_ids.slots[slot].next == FE_ID_ALIVE;
-}
-
 // The record that a row names: taken out of those that are neither free nor known
 static void *claim_record(const fe__record_pool *pool, int32_t slot)
 {
@@ -33,7 +28,8 @@ static int32_t take_ignore(fe__build *b, int32_t i)
     fe__take_row(b->snapshot, FE__TABLE_IGNORES, i, &row);
     fe__ignore *record = claim_record(&w->ignores, row.slot);
     int32_t x = row.body[0], y = row.body[1];
-    if (!record || !has_body(w, x) || !has_body(w, y) || x == y || fe__pair_set_find(&w->ignored, x, y) >= 0)
+    if (!record || !fe__id_pool_is_alive(&w->body_ids, x) || !fe__id_pool_is_alive(&w->body_ids, y) || x == y ||
+        fe__pair_set_find(&w->ignored, x, y) >= 0)
         return fe__snapshot_refuse(b->snapshot, "ignored pairs: row %d is of none", (int)i);
     record->body[0] = x, record->body[1] = y;
     for (int k = 0; k < 2; ++k) record->links[k] = (fe__link){row.next[k], -1};
@@ -70,16 +66,11 @@ int32_t fe__build_ignores(fe__build *b, const fe__world_row *row)
     for (int32_t i = 0; i < rows; ++i)
         if (!take_ignore(b, i)) return 0;
     for (int32_t body = 0; body < w->body_ids.slot_count; ++body)
-        if (has_body(w, body) && !follow_ignored(b, body, &met)) return 0;
+        if (fe__id_pool_is_alive(&w->body_ids, body) && !follow_ignored(b, body, &met)) return 0;
     return met == 2 * (int64_t)rows || fe__snapshot_refuse(b->snapshot, "ignored pairs: one is in no list");
 }
 
 // ---- encounters ----------------------------------------------------------------------------------------------------
-static int32_t is_whole(const fe_world *w, int32_t shape)
-{
-    return shape < w->shape_ids.slot_count && w->shape_ids.slots[shape].next == FE_ID_ALIVE;
-}
-
 static int32_t take_encounter(fe__build *b, int32_t i)
 {
     fe_world *w = b->world;
@@ -87,8 +78,9 @@ static int32_t take_encounter(fe__build *b, int32_t i)
     fe__take_row(b->snapshot, FE__TABLE_ENCOUNTERS, i, &row);
     fe__encounter *e = claim_record(&w->encounters, row.slot);
     int32_t x = row.shape_a, y = row.shape_b;
-    if (!e || !is_whole(w, x) || !is_whole(w, y) || w->shapes[x].serial >= w->shapes[y].serial ||
-        fe__pair_set_find(&w->encounter_set, x, y) >= 0 || row.lead >= w->pair_limit)
+    if (!e || !fe__id_pool_is_alive(&w->shape_ids, x) || !fe__id_pool_is_alive(&w->shape_ids, y) ||
+        w->shapes[x].serial >= w->shapes[y].serial || fe__pair_set_find(&w->encounter_set, x, y) >= 0 ||
+        row.lead >= w->pair_limit)
         return fe__snapshot_refuse(b->snapshot, "encounters: row %d is of none", (int)i);
     e->shape_a = x, e->shape_b = y, e->lead = row.lead;
     e->denied = row.denied, e->entered = row.entered;
@@ -160,7 +152,7 @@ static int32_t take_awake_bodies(fe__build *b)
     if (rows > w->body_count) return fe__snapshot_refuse(b->snapshot, "awake bodies: %d are too many", (int)rows);
     for (int32_t i = 0; i < rows; ++i) {
         int32_t slot = fe__listed_slot(b->snapshot, FE__TABLE_AWAKE_BODIES, i);
-        if (!has_body(w, slot) || is_awake(w, slot) || w->bodies[slot].type == FE_BODY_STATIC ||
+        if (!fe__id_pool_is_alive(&w->body_ids, slot) || is_awake(w, slot) || w->bodies[slot].type == FE_BODY_STATIC ||
             !(w->bodies[slot].flags & FE__BODY_ENABLED))
             return fe__snapshot_refuse(b->snapshot, "awake bodies: %d cannot be", (int)slot);
         w->bodies[slot].awake_index = i;
@@ -168,7 +160,8 @@ static int32_t take_awake_bodies(fe__build *b)
     }
     // who has one gets another when the graph is built
     for (int32_t slot = 0; slot < w->body_ids.slot_count; ++slot)
-        if (has_body(w, slot) && w->bodies[slot].island >= 0 && !(is_awake(w, slot) && is_dynamic(w, slot)))
+        if (fe__id_pool_is_alive(&w->body_ids, slot) && w->bodies[slot].island >= 0 &&
+            !(is_awake(w, slot) && is_dynamic(w, slot)))
             return fe__snapshot_refuse(b->snapshot, "body in slot %d: it is in an island, and not awake", (int)slot);
     return 1;
 }

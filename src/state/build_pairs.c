@@ -3,6 +3,7 @@
 
 #include "collision/manifold/patch.h"
 #include "solver/graph/colour.h"
+#include "world/pair_link.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
 #include "world/pairs.h"
@@ -133,14 +134,8 @@ static int32_t take_pair(fe__build *b, int32_t pair, int32_t row)
     p->awake_index = -1;
     if (!check_shapes(b, pair) || !check_triangle(b, pair) || !check_contact(b, pair)) return 0;
     p->events = (uint16_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
-    int32_t colour = w->contacts[pair].colour, both = w->contacts[pair].kind & FE__ROW_PAIR;
-    // bounds that only grow: without a colour is what found all of them taken
-    if (colour == FE__OVERFLOW_COLOUR)
-        *(both ? &w->pair_colours : &w->static_colours) = both ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
-    if (colour >= 0 && colour < FE__PAIR_COLOURS) w->pair_colours = fe__maxi(w->pair_colours, colour + 1);
-    if (colour >= FE__PAIR_COLOURS && colour < FE__OVERFLOW_COLOUR)
-        w->static_colours = fe__maxi(w->static_colours, colour - FE__PAIR_COLOURS + 1);
-    w->linked_count += colour >= 0;
+    fe__pair_note_colour(w, w->contacts + pair);
+    w->linked_count += w->contacts[pair].colour >= 0;
     return 1;
 }
 

@@ -3,14 +3,10 @@
 #include "state/build.h"
 
 #include "broadphase/tree_check.h"
+#include "state/rows.h"
 
-enum {
-    // A walk goes down a tree that deep without harm to the stack. Trees deeper than 30 are built anew every eighth
-    // step
-    DEEPEST = 1024,
-    FREE_NODES = 4096, // see rows.c: no snapshot asks for more memory than its size lets expect
-    PER_NODE = 4
-};
+// A walk goes down a tree that deep without harm to the stack. Trees deeper than 30 are built anew every eighth step
+enum { DEEPEST = 1024 };
 
 typedef struct taker {
     fe__build *build;
@@ -29,9 +25,8 @@ static int32_t takes_proxy(void *context, int32_t proxy)
 
 static int32_t check_counts(fe__build *b, const fe__tree *tree, fe__table_number table)
 {
-    int64_t most = (int64_t)PER_NODE * tree->node_count + FREE_NODES + tree->promised;
     int32_t rows = fe__rows_of(b->snapshot, table);
-    if (tree->node_count == rows && tree->node_capacity >= rows && tree->node_capacity <= most &&
+    if (tree->node_count == rows && tree->node_capacity >= rows && tree->node_capacity <= fe__most_nodes(tree) &&
         tree->promised <= FE_ID_MAX_SLOTS && (int64_t)rows + tree->promised <= tree->node_capacity &&
         tree->dead <= rows && (tree->proxy_count > 0) == (rows > 0) && tree->depth <= DEEPEST)
         return 1;

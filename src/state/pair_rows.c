@@ -7,12 +7,6 @@
 
 #include <string.h>
 
-static const void *listed(int32_t slot, void *room)
-{
-    *(fe__slot_row *)room = (fe__slot_row){slot};
-    return room;
-}
-
 #define ROWS(rows, length, following)                                  \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place) { return following; }
@@ -56,7 +50,7 @@ RECORDS(pairs, world->pairs + place)
 ROWS(contacts, live_pairs(world), next_pair(world, place))
 RECORDS(contacts, world->contacts + place)
 ROWS(touching, points_in_use(world), next_with_points(world, place))
-RECORDS(touching, listed(place, room))
+RECORDS(touching, fe__slot_in(room, place))
 ROWS(points, points_in_use(world), next_with_points(world, place))
 RECORDS(points, world->points + world->contacts[place].points)
 ROWS(features, points_in_use(world), next_with_points(world, place))
@@ -64,7 +58,7 @@ RECORDS(features, world->features + world->contacts[place].points)
 ROWS(extras, world->extra_capacity ? points_in_use(world) : 0, next_with_points(world, place))
 RECORDS(extras, world->extras + world->contacts[place].points)
 ROWS(awake_pairs, world->awake_pair_count, next_awake(world, place))
-RECORDS(awake_pairs, listed(place, room))
+RECORDS(awake_pairs, fe__slot_in(room, place))
 
 // ---- deferred pairs -------------------------------------------------------------------------------------------------
 static int32_t is_deferred(const fe_world *w, int32_t pair) { return w->awake_pairs[w->pairs[pair].awake_index] < 0; }
@@ -99,7 +93,7 @@ const void *fe__deferrals_at(const fe_world *world, int32_t place, void *room)
 // ---- slots without a pair -------------------------------------------------------------------------------------------
 ROWS(free_pairs, world->pair_limit - 1 - live_pairs(world) - world->owed_count,
      place < 0 ? world->first_free_pair : world->pairs[place].links[0].next)
-RECORDS(free_pairs, listed(place, room))
+RECORDS(free_pairs, fe__slot_in(room, place))
 
 ROWS(owed, world->owed_count, place < 0 ? world->first_owed : world->pairs[place].links[0].next)
 const void *fe__owed_at(const fe_world *world, int32_t place, void *room)
@@ -144,11 +138,9 @@ static int32_t next_encounter(const fe_world *w, int32_t place)
     return place;
 }
 
-static int32_t live_records(const fe__record_pool *pool) { return pool->limit - 1 - pool->free_count; }
-
 ROWS(free_ignores, world->ignores.free_count, next_free(&world->ignores, place))
-RECORDS(free_ignores, listed(place, room))
-ROWS(ignores, live_records(&world->ignores), next_ignore(world, place))
+RECORDS(free_ignores, fe__slot_in(room, place))
+ROWS(ignores, fe__live_records(&world->ignores), next_ignore(world, place))
 const void *fe__ignores_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__ignore *i = fe__record(&world->ignores, place);
@@ -157,8 +149,8 @@ const void *fe__ignores_at(const fe_world *world, int32_t place, void *room)
 }
 
 ROWS(free_encounters, world->encounters.free_count, next_free(&world->encounters, place))
-RECORDS(free_encounters, listed(place, room))
-ROWS(encounters, live_records(&world->encounters), next_encounter(world, place))
+RECORDS(free_encounters, fe__slot_in(room, place))
+ROWS(encounters, fe__live_records(&world->encounters), next_encounter(world, place))
 const void *fe__encounters_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__encounter *e = fe__record(&world->encounters, place);

@@ -16,12 +16,6 @@
         return record;                                                            \
     }
 
-static const void *listed(int32_t slot, void *room)
-{
-    *(fe__slot_row *)room = (fe__slot_row){slot};
-    return room;
-}
-
 // ---- the world ------------------------------------------------------------------------------------------------------
 int32_t fe__count_world(const fe_world *world) { return (void)world, 1; }
 int32_t fe__next_world(const fe_world *world, int32_t place) { return (void)world, place + 1; }
@@ -59,20 +53,12 @@ ARRAY_RECORDS(shape_slots, world->shape_ids.slots + place)
 ARRAY_ROWS(joint_slots, world->joint_ids.slot_count)
 ARRAY_RECORDS(joint_slots, world->joint_ids.slots + place)
 
-// The next slot in use, with a handle, or hidden
-static int32_t next_slot(const fe__id_pool *pool, int32_t slot, int32_t with_hidden)
-{
-    for (++slot; slot < pool->slot_count; ++slot)
-        if (pool->slots[slot].next == FE_ID_ALIVE || (with_hidden && pool->slots[slot].next == FE_ID_HIDDEN)) break;
-    return slot;
-}
-
 // ---- bodies: anchors are their joints' ------------------------------------------------------------------------------
 #define SLOT_ROWS(rows, length, pool, with_hidden)                     \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place)      \
     {                                                                  \
-        return next_slot(&world->pool, place, with_hidden);            \
+        return fe__next_slot(&world->pool, place, with_hidden);        \
     }
 
 SLOT_ROWS(bodies, world->body_count, body_ids, 0)
@@ -99,7 +85,7 @@ static int32_t is_first_user(const fe_world *world, int32_t shape)
 int32_t fe__count_assets(const fe_world *world) { return world->use_count; }
 int32_t fe__next_assets(const fe_world *world, int32_t place)
 {
-    do place = next_slot(&world->shape_ids, place, 1);
+    do place = fe__next_slot(&world->shape_ids, place, 1);
     while (place < world->shape_ids.slot_count && !is_first_user(world, place));
     return place;
 }
@@ -123,17 +109,15 @@ JOINT_ROWS(joint_anchors, world->joints.joints + place + 1)
 JOINT_ROWS(joint_frames, world->joints.frames + place + 1)
 JOINT_ROWS(joint_reactions, world->joints.reactions + place + 1)
 
-static int32_t live_records(const fe__record_pool *pool) { return pool->limit - 1 - pool->free_count; }
-
 static int32_t next_of_type(const fe_world *world, int32_t place, int32_t type)
 {
-    do place = next_slot(&world->joint_ids, place, 0);
+    do place = fe__next_slot(&world->joint_ids, place, 0);
     while (place < world->joint_ids.slot_count && world->joint_records[place + 1].type != type);
     return place;
 }
 
 #define TYPE_ROWS(rows, number)                                                                                  \
-    int32_t fe__count_##rows(const fe_world *world) { return live_records(world->joint_settings + number); }     \
+    int32_t fe__count_##rows(const fe_world *world) { return fe__live_records(world->joint_settings + number); } \
     int32_t fe__next_##rows(const fe_world *world, int32_t place) { return next_of_type(world, place, number); } \
     ARRAY_RECORDS(rows, fe__record(world->joint_settings + number, world->joint_records[place + 1].settings))
 
@@ -143,10 +127,10 @@ TYPE_ROWS(hinge_joints, FE_JOINT_HINGE)
 TYPE_ROWS(fixed_joints, FE_JOINT_FIXED)
 TYPE_ROWS(configurable_joints, FE_JOINT_CONFIGURABLE)
 
-int32_t fe__count_joint_axes(const fe_world *world) { return live_records(&world->joint_axes); }
+int32_t fe__count_joint_axes(const fe_world *world) { return fe__live_records(&world->joint_axes); }
 int32_t fe__next_joint_axes(const fe_world *world, int32_t place)
 {
-    do place = next_slot(&world->joint_ids, place, 0);
+    do place = fe__next_slot(&world->joint_ids, place, 0);
     while (place < world->joint_ids.slot_count && !world->joints.frames[place + 1].axes);
     return place;
 }
@@ -154,11 +138,11 @@ ARRAY_RECORDS(joint_axes, world->joints.axes + world->joints.frames[place + 1].a
 
 // ---- who is awake, planes -------------------------------------------------------------------------------------------
 ARRAY_ROWS(awake_bodies, world->awake_body_count)
-ARRAY_RECORDS(awake_bodies, listed(world->awake_bodies[place], room))
+ARRAY_RECORDS(awake_bodies, fe__slot_in(room, world->awake_bodies[place]))
 ARRAY_ROWS(awake_joints, world->awake_joint_count)
-ARRAY_RECORDS(awake_joints, listed(world->awake_joints[place], room))
+ARRAY_RECORDS(awake_joints, fe__slot_in(room, world->awake_joints[place]))
 ARRAY_ROWS(planes, world->plane_count)
-ARRAY_RECORDS(planes, listed(world->planes[place], room))
+ARRAY_RECORDS(planes, fe__slot_in(room, world->planes[place]))
 
 // ---- events ---------------------------------------------------------------------------------------------------------
 ARRAY_ROWS(pair_events, world->pair_event_count)
@@ -181,10 +165,8 @@ int32_t fe__next_trees(const fe_world *world, int32_t place) { return (void)worl
 // Free nodes decide how the next proxy comes in. Beyond these the tree has room whatever comes
 const void *fe__trees_at(const fe_world *world, int32_t place, void *room)
 {
-    enum { FREE_NODES = 4096, PER_NODE = 4 };
     fe__tree *tree = room;
     *tree = place ? world->moving_tree : world->static_tree;
-    int64_t most = (int64_t)PER_NODE * tree->node_count + FREE_NODES + tree->promised;
-    tree->node_capacity = (int32_t)fe__minl(tree->node_capacity, most);
+    tree->node_capacity = (int32_t)fe__minl(tree->node_capacity, fe__most_nodes(tree));
     return room;
 }

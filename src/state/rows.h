@@ -3,6 +3,32 @@
 #define FE_STATE_ROWS_H
 #include "state/table.h"
 
+// ---- rows that are numbers of slots ---------------------------------------------------------------------------------
+static inline const void *fe__slot_in(void *room, int32_t slot)
+{
+    *(fe__slot_row *)room = (fe__slot_row){slot};
+    return room;
+}
+
+// The next slot in use behind that one, with a handle, or hidden
+static inline int32_t fe__next_slot(const fe__id_pool *pool, int32_t slot, int32_t with_hidden)
+{
+    for (++slot; slot < pool->slot_count; ++slot)
+        if (pool->slots[slot].next == FE_ID_ALIVE || (with_hidden && pool->slots[slot].next == FE_ID_HIDDEN)) break;
+    return slot;
+}
+
+static inline int32_t fe__live_records(const fe__record_pool *pool) { return pool->limit - 1 - pool->free_count; }
+
+// A tree with so many nodes is written, and taken, with no more room than this: no snapshot asks for more memory than
+// its size lets expect
+static inline int64_t fe__most_nodes(const fe__tree *tree)
+{
+    enum { FREE_NODES = 4096, PER_NODE = 4 };
+    return (int64_t)PER_NODE * tree->node_count + FREE_NODES + tree->promised;
+}
+
+// ---- tables ---------------------------------------------------------------------------------------------------------
 #define FE__DECLARE_ROWS(rows)                                     \
     int32_t fe__count_##rows(const fe_world *world);               \
     int32_t fe__next_##rows(const fe_world *world, int32_t place); \

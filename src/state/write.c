@@ -132,9 +132,8 @@ static void write_table(writer *w, const fe_world *world, uint32_t number)
     close_section(w, number, FE__SECTION_ROWS + rows * fe__row_size(table));
 }
 
-// ---- contents of assets
-// ---------------------------------------------------------------------------------------------- The asset at a place
-// in the table of uses, unless an earlier one there is of the same
+// ---- contents of assets ---------------------------------------------------------------------------------------------
+// The asset at a place in the table of uses, unless an earlier one there is of the same
 static const fe__asset *asset_to_write(const fe_world *world, int32_t place)
 {
     const fe__asset *asset = fe__store_parent(world->store, world->uses[place].asset);

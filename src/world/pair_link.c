@@ -46,11 +46,15 @@ static void note_uneven(fe_world *world, const fe__contact *m, float dt)
     if (sink > MOST_SINK) light->flags |= FE__BODY_STRAINED;
 }
 
-static void note_colour(fe_world *world, const fe__contact *m)
+void fe__pair_note_colour(fe_world *world, const fe__contact *m)
 {
-    if (m->colour < FE__PAIR_COLOURS)
+    if (m->colour < 0) return;
+    if (m->colour == FE__OVERFLOW_COLOUR) // it found all of its kind taken
+        *(m->kind & FE__ROW_PAIR ? &world->pair_colours : &world->static_colours) =
+            m->kind & FE__ROW_PAIR ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
+    else if (m->colour < FE__PAIR_COLOURS)
         world->pair_colours = fe__maxi(world->pair_colours, m->colour + 1);
-    else if (m->colour != FE__OVERFLOW_COLOUR)
+    else
         world->static_colours = fe__maxi(world->static_colours, m->colour - FE__PAIR_COLOURS + 1);
 }
 
@@ -68,7 +72,7 @@ void fe__pair_link(fe_world *world, int32_t pair, float dt)
     world->pairs[pair].flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     ++world->linked_count;
-    note_colour(world, m);
+    fe__pair_note_colour(world, m);
     if (world->pairs[pair].awake_index >= 0) ++world->awake_linked_count, ++world->solver.unbuilt;
     if (has_encounter(world->pairs + pair)) fe__encounter_hold(world, pair, 1);
     if (world->pairs[pair].flags & FE__PAIR_PATCH) enter_lists(world, pair);

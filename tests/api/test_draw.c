@@ -424,8 +424,7 @@ static void a_far_world_is_drawn_as_well(void **state)
     for (int32_t i = 0; i < 36; ++i) FE_NEAR(vertices[0][i].x, vertices[1][i].x, 3e-7);
 }
 
-// ---- what is drawn, and in which colour
-// ------------------------------------------------------------------------------
+// ---- what is drawn, and in which colour -----------------------------------------------------------------------------
 static uint32_t colour_of(const fe_world *world, fe_body body, uint32_t parts)
 {
     fe_draw_options options = options_of(parts);
@@ -644,7 +643,7 @@ static void parts_of_compounds_are_drawn(void **state)
     OK(fe_world_destroy(world));
 }
 
-// -----------------------------------------------------------------------------------------------------
+// ---- the same with any number of workers ----------------------------------------------------------------------------
 static void add_vertices(fe__hash *hash, const drawn *d)
 {
     for (int32_t i = 0; i < d->count; ++i) {

@@ -352,8 +352,7 @@ static void whatever_goes_sends_one_exit(void **state)
     }
 }
 
-// ---- queries: against the same parts as shapes of their own
-// ----------------------------------------------------------
+// ---- queries: against the same parts as shapes of their own ---------------------------------------------------------
 
 typedef struct twins {
     scene a, b; // the compound, its parts

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 48, SECTION = 24, AT_NUMBER = 20, AT_SUM = 32, AT_SECTIONS = 40, NUMBER = 7 };
+enum { HEADER = 48, SECTION = 24, AT_NUMBER = 20, AT_SIZE = 24, AT_SUM = 32, AT_SECTIONS = 40, NUMBER = 7 };
 
 typedef struct bytes {
     unsigned char *data;
@@ -178,6 +178,39 @@ static void each_bit_of_the_headers_counts(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// A later minor version may write sections that this one does not know, behind those that it does
+static fe_result restore_with_unknown_section(fe_world *world, bytes b, uint32_t flags)
+{
+    enum { UNKNOWN = 4999, CONTENT = 16, MAY_SKIP_SHIFT = 16 };
+    bytes more = {calloc(1, (size_t)b.size + SECTION + CONTENT), b.size + SECTION + CONTENT};
+    memcpy(more.data, b.data, (size_t)b.size);
+    unsigned char *section = more.data + b.size;
+    put(section, (uint64_t)UNKNOWN | (uint64_t)(1 | flags << MAY_SKIP_SHIFT) << 32);
+    put(section + 8, CONTENT);
+    put(section + SECTION, UINT64_C(0x123456789abcdef0));
+    put(more.data + AT_SIZE, (uint64_t)more.size);
+    put(more.data + AT_SECTIONS, take(b.data + AT_SECTIONS, 8) + 1);
+    mend(more);
+    fe_result result = fe_world_restore(world, NULL, more.data, more.size);
+    free(more.data);
+    return result;
+}
+
+static void only_what_says_so_is_skipped(void **state)
+{
+    (void)state;
+    fe_world *world = make_scene(&script_brief, 40);
+    bytes before = save(world);
+    assert_int_equal(restore_with_unknown_section(world, before, 0), FE_ERROR_DATA);
+    FE_TRUE(strstr(fe_last_error(), "section 4999 is unknown") != NULL);
+    assert_int_equal(restore_with_unknown_section(world, before, 1), FE_OK);
+    bytes after = save(world);
+    FE_TRUE(after.size == before.size && memcmp(after.data, before.data, (size_t)after.size) == 0);
+    free(before.data);
+    free(after.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
 static uint32_t draw(uint32_t *seed)
 {
     *seed = *seed * 1664525u + 1013904223u;
@@ -268,6 +301,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bytes_that_are_cut_are_refused_and_change_nothing),
         cmocka_unit_test(each_bit_of_the_headers_counts),
+        cmocka_unit_test(only_what_says_so_is_skipped),
         cmocka_unit_test(brief_under_random_numbers),
         cmocka_unit_test(crowd_under_random_numbers),
         cmocka_unit_test(terrain_under_random_numbers),

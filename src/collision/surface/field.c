@@ -39,10 +39,9 @@ void fe__draw_field(const fe__drawn *s, fe__pen *pen)
     }
 }
 
-// ---- edges: of what is whole each between two triangles once
-// --------------------------------------------------------- Of a mesh the neighbour has it the other way round: one of
-// the two goes up, by x, then y, then z. Edges that are open, crowded or wound against each other are drawn by each
-// triangle that has them.
+// ---- edges: of what is whole each between two triangles once --------------------------------------------------------
+// Of a mesh the neighbour has it the other way round: one of the two goes up, by x, then y, then z. Edges that are
+// open, crowded or wound against each other are drawn by each triangle that has them.
 static int32_t draws_mesh_edge(const fe__mesh *mesh, int32_t slot, int32_t side, const fe_dvec3 *a, const fe_dvec3 *b)
 {
     fe__mesh_edge edge = fe__mesh_edge_of(mesh, slot, side);
