@@ -132,7 +132,8 @@ static double overlap_of(const placed *a, const placed *b)
 
 static const double PIT = 6.0; // m, half of its width
 
-// How deep a ball is in what stands still, m
+// How deep a ball is in what stands still, m. Over a ridge of the hills the plane under its centre is not what is
+// nearest
 static double depth_of(const bench_scene *scene, const double *point, double radius)
 {
     double height = 0.0, normal[3] = {0.0, 1.0, 0.0};
@@ -141,6 +142,7 @@ static double depth_of(const bench_scene *scene, const double *point, double rad
         return radius + fmax(-point[1], fmax(fabs(point[0]), fabs(point[2])) - PIT);
     case BENCH_GROUND_MESH:
         if (!bench_hills_height(point[0], point[2], &height, normal)) return -DBL_MAX;
+        if (radius > 0.0 && point[1] > height) return radius - bench_hills_distance(point);
         return (height - point[1]) * normal[1] + radius;
     case BENCH_GROUND_FLOOR:
     case BENCH_GROUND_NONE:

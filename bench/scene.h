@@ -196,6 +196,8 @@ bench_mesh bench_hills(int32_t cells);
 void bench_mesh_free(bench_mesh *mesh);
 /// Of the hills of BENCH_HILLS_CELLS: height and unit normal. 0 beyond their rim.
 int bench_hills_height(double x, double z, double *out_height, double *out_normal);
+/// From a point to the nearest of their triangles, m: exact where that is less than a cell away.
+double bench_hills_distance(const double *point);
 
 /// Uniform over all rotations, a quaternion x y z w.
 void bench_draw_rotation(uint64_t *state, double *out);

@@ -5,8 +5,10 @@
 #include "../scene.h"
 #include "../vec.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // m, between -0.1 and 0.1: a hash of the vertex
 static double roughness(int32_t row, int32_t column)
@@ -40,6 +42,63 @@ int bench_hills_height(double x, double z, double *out_height, double *out_norma
     return 1;
 }
 
+// ---- distances -----------------------------------------------------------------------------------------------------
+static double distance_to_side(const double *p, const double *a, const double *b)
+{
+    double side[3], from[3];
+    bench_minus(b, a, side);
+    bench_minus(p, a, from);
+    const double t = fmin(fmax(bench_dot(from, side) / bench_dot(side, side), 0.0), 1.0);
+    for (int k = 0; k < 3; k++) from[k] -= t * side[k];
+    return bench_length(from);
+}
+
+// To its plane where the foot is inside of all sides, else to the nearest side
+static double distance_to_triangle(const double *p, double corners[3][3])
+{
+    double ab[3], ac[3], normal[3], least = DBL_MAX;
+    bench_minus(corners[1], corners[0], ab);
+    bench_minus(corners[2], corners[0], ac);
+    bench_cross(ab, ac, normal);
+    int32_t inside = 1;
+    for (int k = 0; k < 3; k++) {
+        const double *a = corners[k], *b = corners[(k + 1) % 3];
+        double side[3], from[3], inwards[3];
+        bench_minus(b, a, side);
+        bench_minus(p, a, from);
+        bench_cross(normal, side, inwards);
+        if (bench_dot(inwards, from) < 0.0) inside = 0;
+        least = fmin(least, distance_to_side(p, a, b));
+    }
+    double from[3];
+    bench_minus(p, corners[0], from);
+    return inside ? fabs(bench_dot(normal, from)) / bench_length(normal) : least;
+}
+
+static void place_corner(int32_t row, int32_t column, double *out)
+{
+    out[0] = column - 0.5 * BENCH_HILLS_CELLS, out[2] = row - 0.5 * BENCH_HILLS_CELLS;
+    out[1] = height_at(BENCH_HILLS_CELLS, row, column);
+}
+
+double bench_hills_distance(const double *p)
+{
+    const int32_t column = (int32_t)floor(p[0] + 0.5 * BENCH_HILLS_CELLS),
+                  row = (int32_t)floor(p[2] + 0.5 * BENCH_HILLS_CELLS), last = BENCH_HILLS_CELLS - 1;
+    double least = DBL_MAX;
+    for (int32_t r = row > 0 ? row - 1 : 0; r <= row + 1 && r <= last; r++) {
+        for (int32_t c = column > 0 ? column - 1 : 0; c <= column + 1 && c <= last; c++) {
+            double low[3][3], high[3][3];
+            place_corner(r, c, low[0]), place_corner(r + 1, c, low[1]), place_corner(r + 1, c + 1, low[2]);
+            memcpy(high[0], low[0], sizeof high[0]), memcpy(high[1], low[2], sizeof high[1]);
+            place_corner(r, c + 1, high[2]);
+            least = fmin(least, fmin(distance_to_triangle(p, low), distance_to_triangle(p, high)));
+        }
+    }
+    return least;
+}
+
+// ---- the mesh ------------------------------------------------------------------------------------------------------
 bench_mesh bench_hills(int32_t cells)
 {
     const int32_t side = cells + 1;
