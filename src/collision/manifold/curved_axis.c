@@ -213,7 +213,8 @@ int32_t fe__look_again(const fe__cores *cores, int32_t axis, fe_vec3 last, fe__t
 {
     int32_t kind = axis >> KIND_SHIFT, is_b = (axis & OF_B) != 0, feature = axis & FEATURE, found = 0;
     const fe__form *form = is_b ? cores->b : cores->a;
-    if (kind == OF_FACE && feature >= (fe__form_is_hull(form) ? form->hull->face_count : 3)) return 0; // whoever wrote the axis
+    if (kind == OF_FACE && feature >= (fe__form_is_hull(form) ? form->hull->face_count : 3))
+        return 0; // whoever wrote the axis
     if (kind == OF_FACE) {
         fe_dvec3 n = fe__form_is_hull(form) ? hull_normal(cores, is_b, feature) : axis_of(cores, is_b, feature);
         found = look_along(cores, n, axis, touch);
