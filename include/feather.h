@@ -222,15 +222,17 @@ FE_API int32_t fe_asset_get_type(const fe_store *store, fe_asset asset);
 
 /// Writes an asset as bytes: cook hulls, meshes and heightfields when a game is built, load them when it starts. The
 /// bytes are little-endian and hold no pointers. The same asset gives the same bytes on every machine, and a loaded one
-/// the bytes that it was loaded from. They hold its materials, a heightfield's heights as they are now, and a mesh's
-/// triangle_data and numbers; a scale is the shape's, and not among them. Any later 1.x library loads them.
+/// the bytes that it was loaded from. They hold its materials, a heightfield's heights as they are now, a mesh's
+/// triangle_data and numbers, and of a compound the assets of its parts; a scale is the shape's, and not among them.
+/// Any later 1.x library loads them.
 /// @param out       at any alignment; NULL, 0 asks for the size only
 /// @param capacity  bytes; with less than the size nothing is written
-/// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED for a compound: save the assets of its parts
+/// @return the size in bytes, or an error
 FE_API int64_t fe_asset_save(const fe_store *store, fe_asset asset, void *out, int64_t capacity);
 /// Makes the asset that fe_asset_save wrote, in less time than it was built. It moves every world as the saved one
 /// does, bit for bit. Bytes from anywhere may be given: each number in them is checked, and what is accepted is sound,
-/// even if nobody saved it. Any thread may load while worlds that use the store step.
+/// even if nobody saved it. Any thread may load while worlds that use the store step. The assets of a compound's parts
+/// are loaded with it, and live as long as it does.
 /// @param bytes  copied; at any alignment
 /// @param size   of them, as fe_asset_save returned it
 /// @return FE_ERROR_DATA for bytes that are cut, altered or of something else, fe_last_error tells what is wrong and at

@@ -4,9 +4,6 @@
 #include "core/fp_state.h"
 #include "store/scaled_asset.h"
 
-#define LEAST_SCALE 1e-3f
-#define MOST_SCALE 1e3f
-
 // ---- the scale -----------------------------------------------------------------------------------------------------
 static int32_t is_each(fe_vec3 s, float x) { return s.x == x && s.y == x && s.z == x; }
 static int32_t is_one(fe_vec3 s) { return is_each(s, 0.0f) || is_each(s, 1.0f); }
@@ -29,27 +26,18 @@ static fe_result read_scale(const char *function, const fe_geometry *geometry, f
     const float numbers[3] = {s.x, s.y, s.z};
     for (int32_t k = 0; k < 3; ++k) {
         float size = fe__absf(numbers[k]);
-        if (size >= LEAST_SCALE && size <= MOST_SCALE) continue;
+        if (size >= FE_LEAST_SCALE && size <= FE_MAX_SCALE) continue;
         return fe__fail(function, FE_ERROR_ARGUMENT,
                         "geometry->scale.%c is %.9g, its magnitude must be in [%.9g, %.9g]", "xyz"[k],
-                        (double)numbers[k], (double)LEAST_SCALE, (double)MOST_SCALE);
+                        (double)numbers[k], (double)FE_LEAST_SCALE, (double)FE_MAX_SCALE);
     }
     *out_scale = s;
     return FE_OK;
 }
 
-static double farthest(float low, float high, float scale)
-{
-    return fe__maxd(fe__absd((double)low), fe__absd((double)high)) * fe__absd((double)scale);
-}
-
 static fe_result check_lengths(const char *function, const fe__asset *a, fe_vec3 scale)
 {
-    int32_t is_hull = a->kind == FE__ASSET_HULL;
-    fe_vec3 low = is_hull ? fe__add(a->hull.origin, a->hull.low) : a->mesh.low,
-            high = is_hull ? fe__add(a->hull.origin, a->hull.high) : a->mesh.high;
-    double most = fe__maxd(farthest(low.x, high.x, scale.x),
-                           fe__maxd(farthest(low.y, high.y, scale.y), farthest(low.z, high.z, scale.z)));
+    double most = fe__asset_farthest(a, scale);
     if (most <= (double)FE_MAX_LENGTH) return FE_OK;
     return fe__fail(function, FE_ERROR_ARGUMENT,
                     "geometry->scale takes a point to a coordinate of %.9g m, must be at most %.9g m", most,

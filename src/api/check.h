@@ -15,6 +15,7 @@
 #define FE_API_CHECK_H
 #include "api/error.h"
 #include "api/fields.h"
+#include "core/material.h"
 #include "core/ranges.h"
 #include "world/world.h"
 
@@ -129,10 +130,6 @@ fe_result fe__check_array(const char *function, const char *name, const char *co
                           int32_t count);
 fe_result fe__check_stride(const char *function, const char *name, uint32_t *stride, uint32_t packed, uint32_t least);
 fe_result fe__check_reserved(const char *function, const void *words, int32_t count); // 32 bits each
-static inline fe_material fe__default_material(void)
-{
-    return (fe_material){.static_friction = 0.6f, .dynamic_friction = 0.5f};
-}
 fe_result fe__check_material(const char *function, const fe_material *material);
 fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields);

@@ -89,13 +89,8 @@ static fe_result create(const char *function, fe_store *store, const fe_compound
     compound->parts = fe__making_block(store, &asset, (int64_t)sizeof *compound->parts * count);
     if (!compound->parts) return fe__report(function, FE_ERROR_MEMORY);
     fe_result result = read_parts(function, store, parts, stride, count, compound);
-    fe__store_lock(store);
-    if (result == FE_OK) result = fe__report(function, fe__store_put(store, &asset, out_asset));
-    if (result != FE_OK) {
-        fe__compound_release_parts(store, compound);
-        fe__asset_free(store, &asset);
-    }
-    fe__store_unlock(store);
+    if (result == FE_OK) return fe__report(function, fe__making_put(store, &asset, out_asset));
+    fe__making_drop(store, &asset);
     return result;
 }
 

@@ -100,11 +100,8 @@ static fe_result write_asset(const char *function, const fe_store *store, fe_ass
     int32_t index;
     FE_TRY(fe__find_asset(function, "asset", store, asset, &index));
     const fe__asset *a = fe__store_asset(store, index);
-    if (a->kind == FE__ASSET_COMPOUND)
-        return fe__fail(function, FE_ERROR_UNSUPPORTED,
-                        "asset 0x%llx is a compound: save the assets of its parts, and make it anew", asset);
-    *out_size = fe__asset_bytes(a);
-    if (*out_size <= capacity) fe__asset_write(a, out);
+    *out_size = fe__asset_bytes(store, a);
+    if (*out_size <= capacity) fe__asset_write(store, a, out);
     return FE_OK;
 }
 

@@ -19,6 +19,8 @@
 #define FE_MAX_INERTIA 1e30f
 #define FE_LEAST_LENGTH 1e-3f // m, of a form
 #define FE_MAX_LENGTH 1e5f
+#define FE_LEAST_SCALE 1e-3f // of an asset, its magnitude along an axis
+#define FE_MAX_SCALE 1e3f
 #define FE_MAX_DT 1.0f // s
 // s. A float's last digit of a speed of 16 m/s, over so short a time, is 0.1 m/s2, a hundredth of gravity: what
 // impulses over shorter times would tell of forces is rounding

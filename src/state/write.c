@@ -154,7 +154,7 @@ static int64_t assets_size(const fe_world *world)
     int64_t size = 0;
     for (int32_t i = 0; i < world->use_count; ++i) {
         const fe__asset *asset = asset_to_write(world, i);
-        if (asset) size += FE__SECTION_HEADER + fe__asset_bytes(asset);
+        if (asset) size += FE__SECTION_HEADER + fe__asset_bytes(world->store, asset);
     }
     return size;
 }
@@ -173,8 +173,8 @@ static void write_assets(writer *w, const fe_world *world)
             is_first = fe__store_parent(world->store, world->shapes[other].form.field) != asset;
         }
         if (!is_first) continue;
-        int64_t size = fe__asset_bytes(asset);
-        fe__asset_write(asset, w->at + FE__SECTION_HEADER);
+        int64_t size = fe__asset_bytes(world->store, asset);
+        fe__asset_write(world->store, asset, w->at + FE__SECTION_HEADER);
         fe__asset_seal(w->at + FE__SECTION_HEADER, size);
         close_section(w, FE__SECTION_ASSET, size);
     }

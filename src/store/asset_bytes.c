@@ -2,6 +2,7 @@
 #include "store/asset_bytes.h"
 
 #include "core/hash.h"
+#include "store/compound_bytes.h"
 #include "store/heightfield_asset.h"
 #include "store/making.h"
 
@@ -9,7 +10,8 @@
 
 // The last byte ends what is printed of it
 static const unsigned char magic[8] = {'F', 'E', 'A', 'T', 'H', 'E', 'R', 0x1A};
-enum { VERSION = 1, KIND_HEIGHTFIELD = 1, KIND_HULL = 2, KIND_MESH = 3, HEADER = 40, SIZE_AT = 24, HASH_AT = 32 };
+enum { VERSION = 1, KIND_HEIGHTFIELD = 1, KIND_HULL = 2, KIND_MESH = 3, KIND_COMPOUND = 4 };
+enum { HEADER = FE__ASSET_HEADER, KIND_AT = 12, MATERIALS_AT = 20, SIZE_AT = 24, HASH_AT = 32 };
 enum { HAS_CELLS = 1 };                  // features of heightfields
 enum { IS_TWO_SIDED = 1, HAS_DATA = 2 }; // and of meshes
 
@@ -30,41 +32,60 @@ static header header_of(const fe__asset *a)
     case FE__ASSET_HULL:
         h.kind = KIND_HULL;
         break;
+    case FE__ASSET_COMPOUND:
+        h.kind = KIND_COMPOUND;
+        break;
     default:
         h.kind = KIND_MESH, h.features = (a->mesh.is_two_sided ? IS_TWO_SIDED : 0) | (a->mesh.data ? HAS_DATA : 0);
     }
     return h;
 }
 
-static int64_t form_bytes(const fe__asset *a)
+static int64_t form_bytes(const fe_store *store, const fe__asset *a)
 {
-    if (a->kind == FE__ASSET_HEIGHTFIELD) return fe__cooked_field_size(&a->field);
-    return a->kind == FE__ASSET_HULL ? fe__cooked_hull_size(&a->hull) : fe__cooked_mesh_size(&a->mesh);
+    switch (a->kind) {
+    case FE__ASSET_HEIGHTFIELD:
+        return fe__cooked_field_size(&a->field);
+    case FE__ASSET_HULL:
+        return fe__cooked_hull_size(&a->hull);
+    case FE__ASSET_COMPOUND:
+        return fe__compound_bytes(store, &a->compound);
+    default:
+        return fe__cooked_mesh_size(&a->mesh);
+    }
 }
 
-static unsigned char *write_form(const fe__asset *a, unsigned char *out)
+static unsigned char *write_form(const fe_store *store, const fe__asset *a, unsigned char *out)
 {
-    if (a->kind == FE__ASSET_HEIGHTFIELD) return fe__cooked_field_write(&a->field, out);
-    return a->kind == FE__ASSET_HULL ? fe__cooked_hull_write(&a->hull, out) : fe__cooked_mesh_write(&a->mesh, out);
+    switch (a->kind) {
+    case FE__ASSET_HEIGHTFIELD:
+        return fe__cooked_field_write(&a->field, out);
+    case FE__ASSET_HULL:
+        return fe__cooked_hull_write(&a->hull, out);
+    case FE__ASSET_COMPOUND:
+        return fe__compound_write(store, &a->compound, out);
+    default:
+        return fe__cooked_mesh_write(&a->mesh, out);
+    }
 }
 
 static int64_t materials_bytes(int32_t count) { return (int64_t)FE__COOKED_MATERIAL * count; }
 static int64_t padded(int64_t size) { return (size + 7) / 8 * 8; }
 
-int64_t fe__asset_bytes(const fe__asset *a)
+int64_t fe__asset_bytes(const fe_store *store, const fe__asset *a)
 {
-    return padded(HEADER + materials_bytes(a->material_count) + form_bytes(a));
+    return padded(HEADER + materials_bytes(a->material_count) + form_bytes(store, a));
 }
 
-void fe__asset_write(const fe__asset *a, unsigned char *out)
+void fe__asset_write(const fe_store *store, const fe__asset *a, unsigned char *out)
 {
     header h = header_of(a);
-    int64_t size = fe__asset_bytes(a);
+    int64_t size = fe__asset_bytes(store, a);
     unsigned char *at = fe__put_bytes(out, magic, sizeof magic);
     at = fe__put_u32(fe__put_i32(fe__put_u32(at, VERSION), h.kind), h.features);
     at = fe__put_u64(fe__put_u64(fe__put_i32(at, h.material_count), (uint64_t)size), 0);
     for (int32_t i = 0; i < a->material_count; ++i) at = fe__cooked_material_write(a->materials + i, at);
-    at = write_form(a, at);
+    at = write_form(store, a, at);
     memset(at, 0, (size_t)(out + size - at));
 }
 
@@ -85,67 +106,72 @@ static uint64_t hash_of(const unsigned char *bytes, int64_t size)
 void fe__asset_seal(unsigned char *out, int64_t size) { fe__put_u64(out + HASH_AT, hash_of(out, size)); }
 
 // ---- the header ----------------------------------------------------------------------------------------------------
-static fe_result refuse_newer(fe__cooked *c, const char *what, uint32_t number)
-{
-    snprintf(c->sentence, sizeof c->sentence, "%s %lu is of a newer library", what, (unsigned long)number);
-    return c->result = FE_ERROR_VERSION;
-}
-
-// All that a version may not change is where it stands
-static fe_result check_version(fe__cooked *c, int64_t size)
-{
-    const unsigned char *at = c->begin + sizeof magic;
-    if (size < HEADER)
-        return fe__cooked_refuse(c, c->begin, "there are %lld bytes, a header has %d", (long long)size, HEADER),
-               c->result;
-    if (memcmp(c->begin, magic, sizeof magic))
-        return fe__cooked_refuse(c, c->begin, "these are no bytes of fe_asset_save"), c->result;
-    uint32_t version = fe__take_u32(&at);
-    return version > VERSION ? refuse_newer(c, "format", version) : FE_OK;
-}
-
-// Size and hash: these are the bytes that were written, unless by intent
-static int32_t check_whole(fe__cooked *c, int64_t size)
-{
-    const unsigned char *bytes = c->begin, *at = bytes + SIZE_AT;
-    uint64_t told = fe__take_u64(&at), hash = fe__take_u64(&at);
-    if (told != (uint64_t)size || size % 8)
-        return fe__cooked_refuse(c, bytes + SIZE_AT, "there are %lld bytes, fe_asset_save wrote %llu", (long long)size,
-                                 (unsigned long long)told);
-    if (hash != hash_of(bytes, size))
-        return fe__cooked_refuse(c, bytes + HASH_AT, "the hash is not that of the bytes: they were altered");
-    return 1;
-}
-
-static fe_result read_header(fe__cooked *c, int64_t size, header *h)
-{
-    static const uint32_t features[] = {[KIND_HEIGHTFIELD] = HAS_CELLS, [KIND_MESH] = IS_TWO_SIDED | HAS_DATA};
-    if (check_version(c, size) != FE_OK || !check_whole(c, size)) return c->result;
-    c->at = c->begin + sizeof magic;
-    uint32_t version = fe__take_u32(&c->at), kind = fe__take_u32(&c->at);
-    h->features = fe__take_u32(&c->at);
-    if (kind > KIND_MESH) return refuse_newer(c, "kind", kind);
-    if (version == 0 || kind == 0) return fe__cooked_refuse(c, c->begin + 8, "0 is no version or kind"), c->result;
-    if (h->features & ~features[kind]) return refuse_newer(c, "feature", h->features & ~features[kind]);
-    int32_t most = kind == KIND_HULL ? 0 : FE__MESH_MATERIALS;
-    if (!fe__cooked_int(c, "the number of materials", 0, most, &h->material_count)) return c->result;
-    if (kind == KIND_HEIGHTFIELD && h->material_count && !h->features)
-        return fe__cooked_refuse(c, c->begin + 20, "there are materials, but no cells that have them"), c->result;
-    h->kind = (int32_t)kind;
-    c->at = c->begin + HEADER;
-    return FE_OK;
-}
-_Static_assert((int)FE__MESH_MATERIALS == (int)FE__FIELD_MATERIALS, "one limit for both");
-
-// ---- the form ------------------------------------------------------------------------------------------------------
 typedef struct reading {
     fe_store *store;
     fe__cooked *cooked;
-    const unsigned char *end; // of the bytes
+    const unsigned char *start, *end; // of the asset
     header header;
     fe__asset asset;
 } reading;
 
+static int32_t refuse_newer(fe__cooked *c, const char *what, uint32_t number)
+{
+    snprintf(c->sentence, sizeof c->sentence, "%s %lu is of a newer library", what, (unsigned long)number);
+    c->result = FE_ERROR_VERSION;
+    return 0;
+}
+
+// All that a version may not change is where it stands
+static int32_t check_version(const reading *r)
+{
+    const unsigned char *at = r->start + sizeof magic;
+    int64_t size = r->end - r->start;
+    if (size < HEADER)
+        return fe__cooked_refuse(r->cooked, r->start, "there are %lld bytes, a header has %d", (long long)size, HEADER);
+    if (memcmp(r->start, magic, sizeof magic))
+        return fe__cooked_refuse(r->cooked, r->start, "these are no bytes of fe_asset_save");
+    uint32_t version = fe__take_u32(&at);
+    return version > VERSION ? refuse_newer(r->cooked, "format", version) : 1;
+}
+
+// Size and hash: these are the bytes that were written, unless by intent
+static int32_t check_whole(const reading *r)
+{
+    const unsigned char *at = r->start + SIZE_AT;
+    int64_t size = r->end - r->start;
+    uint64_t told = fe__take_u64(&at), hash = fe__take_u64(&at);
+    if (told != (uint64_t)size || size % 8)
+        return fe__cooked_refuse(r->cooked, r->start + SIZE_AT, "there are %lld bytes, fe_asset_save wrote %llu",
+                                 (long long)size, (unsigned long long)told);
+    if (hash != hash_of(r->start, size))
+        return fe__cooked_refuse(r->cooked, r->start + HASH_AT, "the hash is not that of the bytes: they were altered");
+    return 1;
+}
+
+static int32_t read_header(reading *r)
+{
+    static const uint32_t features[] = {
+        [KIND_HEIGHTFIELD] = HAS_CELLS, [KIND_MESH] = IS_TWO_SIDED | HAS_DATA, [KIND_COMPOUND] = 0};
+    fe__cooked *c = r->cooked;
+    header *h = &r->header;
+    if (!check_version(r) || !check_whole(r)) return 0;
+    c->at = r->start + sizeof magic;
+    uint32_t version = fe__take_u32(&c->at), kind = fe__take_u32(&c->at);
+    h->features = fe__take_u32(&c->at);
+    if (kind > KIND_COMPOUND) return refuse_newer(c, "kind", kind);
+    if (version == 0 || kind == 0) return fe__cooked_refuse(c, r->start + sizeof magic, "0 is no version or kind");
+    if (h->features & ~features[kind]) return refuse_newer(c, "feature", h->features & ~features[kind]);
+    int32_t most = kind == KIND_HEIGHTFIELD || kind == KIND_MESH ? FE__MESH_MATERIALS : 0;
+    if (!fe__cooked_int(c, "the number of materials", 0, most, &h->material_count)) return 0;
+    if (kind == KIND_HEIGHTFIELD && h->material_count && !h->features)
+        return fe__cooked_refuse(c, r->start + MATERIALS_AT, "there are materials, but no cells that have them");
+    h->kind = (int32_t)kind;
+    c->at = r->start + HEADER;
+    return 1;
+}
+_Static_assert((int)FE__MESH_MATERIALS == (int)FE__FIELD_MATERIALS, "one limit for both");
+
+// ---- the form ------------------------------------------------------------------------------------------------------
 static int32_t refuse_size(reading *r, int64_t needed)
 {
     return fe__cooked_refuse(r->cooked, r->cooked->at, "%lld bytes are left, must be %lld",
@@ -217,6 +243,9 @@ static int32_t read_form(reading *r)
     case KIND_HULL:
         r->asset.kind = FE__ASSET_HULL;
         return read_hull(r);
+    case KIND_COMPOUND:
+        r->asset.kind = FE__ASSET_COMPOUND;
+        return fe__compound_read(r->store, r->cooked, r->end, &r->asset);
     default:
         r->asset.kind = FE__ASSET_MESH;
         return read_mesh(r);
@@ -240,13 +269,37 @@ static int32_t read_materials(reading *r)
     return 1;
 }
 
+static fe_result read_asset(fe_store *store, fe__cooked *c, const unsigned char *end, fe_asset *out_handle)
+{
+    reading r = {.store = store, .cooked = c, .start = c->at, .end = end};
+    if (!read_header(&r)) return c->result;
+    if (read_materials(&r) && read_form(&r)) {
+        c->at = end;
+        return c->result = fe__making_put(store, &r.asset, out_handle);
+    }
+    fe__making_drop(store, &r.asset);
+    return c->result;
+}
+
 fe_result fe__asset_read(fe_store *store, const void *bytes, int64_t size, fe__cooked *c, fe_asset *out_handle)
 {
     *c = (fe__cooked){.begin = bytes, .at = bytes};
-    reading r = {.store = store, .cooked = c};
-    if (read_header(c, size, &r.header) != FE_OK) return c->result;
-    r.end = c->begin + size;
-    if (read_materials(&r) && read_form(&r)) return c->result = fe__making_put(store, &r.asset, out_handle);
-    fe__making_drop(store, &r.asset);
-    return c->result;
+    return read_asset(store, c, c->begin + size, out_handle);
+}
+
+fe_result fe__asset_read_part(fe_store *store, fe__cooked *c, const unsigned char *end, fe_asset *out_handle)
+{
+    int64_t left = end - c->at;
+    if (left < HEADER)
+        return fe__cooked_refuse(c, c->at, "%lld bytes are left, a header has %d", (long long)left, HEADER), c->result;
+    const unsigned char *at = c->at + KIND_AT, *size_at = c->at + SIZE_AT;
+    uint32_t kind = fe__take_u32(&at);
+    uint64_t size = fe__take_u64(&size_at);
+    if (kind == KIND_COMPOUND)
+        return fe__cooked_refuse(c, c->at + KIND_AT, "a compound stands among the assets of a compound"), c->result;
+    if (size > (uint64_t)left)
+        return fe__cooked_refuse(c, c->at + SIZE_AT, "%lld bytes are left, the asset has %llu", (long long)left,
+                                 (unsigned long long)size),
+               c->result;
+    return read_asset(store, c, c->at + size, out_handle);
 }

@@ -36,11 +36,17 @@ void *fe__making_block(fe_store *store, fe__asset *asset, int64_t size)
     return block;
 }
 
+static void drop(fe_store *store, fe__asset *asset)
+{
+    if (asset->kind == FE__ASSET_COMPOUND) fe__compound_release_parts(store, &asset->compound);
+    fe__asset_free(store, asset);
+}
+
 fe_result fe__making_put(fe_store *store, fe__asset *asset, fe_asset *out_handle)
 {
     fe__store_lock(store);
     fe_result result = fe__store_put(store, asset, out_handle);
-    if (result != FE_OK) fe__asset_free(store, asset);
+    if (result != FE_OK) drop(store, asset);
     fe__store_unlock(store);
     return result;
 }
@@ -48,7 +54,7 @@ fe_result fe__making_put(fe_store *store, fe__asset *asset, fe_asset *out_handle
 void fe__making_drop(fe_store *store, fe__asset *asset)
 {
     fe__store_lock(store);
-    fe__asset_free(store, asset);
+    drop(store, asset);
     fe__store_unlock(store);
 }
 

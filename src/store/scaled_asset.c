@@ -3,8 +3,33 @@
 
 #include "collision/hull_build/scale.h"
 #include "collision/mesh_build/build.h"
+#include "core/ranges.h"
 
 #include <string.h>
+
+// ---- which scales --------------------------------------------------------------------------------------------------
+static double farthest(float low, float high, float scale)
+{
+    return fe__maxd(fe__absd((double)low), fe__absd((double)high)) * fe__absd((double)scale);
+}
+
+double fe__asset_farthest(const fe__asset *a, fe_vec3 scale)
+{
+    int32_t is_hull = a->kind == FE__ASSET_HULL;
+    fe_vec3 low = is_hull ? fe__add(a->hull.origin, a->hull.low) : a->mesh.low,
+            high = is_hull ? fe__add(a->hull.origin, a->hull.high) : a->mesh.high;
+    return fe__maxd(farthest(low.x, high.x, scale.x),
+                    fe__maxd(farthest(low.y, high.y, scale.y), farthest(low.z, high.z, scale.z)));
+}
+
+int32_t fe__asset_takes_scale(const fe__asset *a, fe_vec3 scale)
+{
+    const float s[3] = {fe__absf(scale.x), fe__absf(scale.y), fe__absf(scale.z)};
+    if (a->kind != FE__ASSET_HULL && a->kind != FE__ASSET_MESH) return 0;
+    for (int32_t k = 0; k < 3; ++k)
+        if (!(s[k] >= FE_LEAST_SCALE && s[k] <= FE_MAX_SCALE)) return 0;
+    return fe__asset_farthest(a, scale) <= (double)FE_MAX_LENGTH;
+}
 
 // ---- the tree ------------------------------------------------------------------------------------------------------
 static int32_t is_same(fe_vec3 a, fe_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }

@@ -18,6 +18,11 @@ typedef struct fe__scale_refusal {
     int32_t triangle; // of a mesh, which would be too flat
 } fe__scale_refusal;
 
+// The largest coordinate of an asset, a hull or a mesh, under the scale, m
+double fe__asset_farthest(const fe__asset *asset, fe_vec3 scale);
+// Is it of a kind that has scales, and the scale none that nobody may give it?
+int32_t fe__asset_takes_scale(const fe__asset *asset, fe_vec3 scale);
+
 // ---- under the lock ------------------------------------------------------------------------------------------------
 // The record of an asset, a hull or a mesh, under a scale: made unless it is there. The caller retains it; nobody has
 // it before. FE_ERROR_DEGENERATE: as out_refusal tells; FE_ERROR_MEMORY, FE_ERROR_LIMIT. Then nothing changed.

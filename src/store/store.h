@@ -52,6 +52,7 @@ typedef struct fe__asset {
     int32_t destroyed; // by its owner: it goes with its last user
     fe_asset handle;   // kept here, so that it can be read without the lock
     int32_t index;     // its own
+    int32_t mark;      // of whoever holds the lock, who has set it
     // Hulls and meshes under a scale are records of their own (scaled_asset.h): of the asset
     struct fe__asset *scaled; // the first of them
     // and of one of them

@@ -4,6 +4,7 @@
 //     build/tests/api/test_asset_bytes 1000000            that many random hulls
 #include "api/asset_test.h"
 #include "support/cooked.h"
+#include "store/store.h"
 #include "support/hull_clouds.h"
 
 #include <stdlib.h>
@@ -269,8 +270,9 @@ static void arguments_are_checked(void **state)
 static void assets_tell_their_type(void **state)
 {
     (void)state;
-    static const int32_t types[COOKED_SEEDS] = {FE_GEOMETRY_HULL, FE_GEOMETRY_HULL,        FE_GEOMETRY_MESH,
-                                                FE_GEOMETRY_MESH, FE_GEOMETRY_HEIGHTFIELD, FE_GEOMETRY_HEIGHTFIELD};
+    static const int32_t types[COOKED_SEEDS] = {FE_GEOMETRY_HULL,     FE_GEOMETRY_HULL,        FE_GEOMETRY_MESH,
+                                                FE_GEOMETRY_MESH,     FE_GEOMETRY_HEIGHTFIELD, FE_GEOMETRY_HEIGHTFIELD,
+                                                FE_GEOMETRY_COMPOUND, FE_GEOMETRY_COMPOUND};
     fe_store *store = new_store(NULL);
     for (int32_t i = 0; i < COOKED_SEEDS; ++i)
         assert_int_equal(fe_asset_get_type(store, cooked_seed(store, i)), types[i]);
@@ -290,11 +292,17 @@ static fe_result load_it(fe_store *store, fe_asset *out)
 static void each_allocation_may_fail(void **state)
 {
     (void)state;
-    for (int32_t i = 0; i < COOKED_SEEDS; ++i) {
+    enum { YARD = 7, RECORDS = 6, CHUNK = 32 };
+    for (int32_t i = 0; i < YARD; ++i) {
         to_load = seed(i);
         assert_in_range(fail_each_asset_allocation(load_it), 6, 6 * 6 + 8);
         free(to_load.bytes);
     }
+    // a compound, three assets and two of them scaled, six times: the last chunk of records is one of 32
+    to_load = seed(YARD);
+    assert_in_range(fail_each_allocation_of(load_it, CHUNK * (int64_t)sizeof(fe__asset) + 4096), 6 * RECORDS,
+                    6 * 6 * RECORDS);
+    free(to_load.bytes);
 }
 
 // What is refused leaves nothing behind, and asks for no more memory than some times its size
@@ -461,13 +469,16 @@ enum {
     FIELD_HEIGHTS = HEADER + 16,
     PAINTED_HEIGHTS = HEADER + 2 * 48 + 16
 };
+// And within a part of a compound
+enum { GEOMETRY = 0, ASSET = 4, SIZES = 8, SCALE = 28, PLACE = 40, TURN = 52, DENSITY = 68, OWN = 72, MATERIAL = 80 };
+#define PART(i) (HEADER + 8 + 136 * (i))
 #define NAN_BITS 0x7fc00000u
 
 static const wrong wrongs[] = {
     {0, 0, 1, 'f', FE_ERROR_DATA, "no bytes of fe_asset_save"},
     {0, VERSION_AT, 4, 2, FE_ERROR_VERSION, "format 2 is of a newer library"},
     {0, VERSION_AT, 4, 0, FE_ERROR_DATA, "version"},
-    {0, KIND_AT, 4, 4, FE_ERROR_VERSION, "kind 4 is of a newer library"},
+    {0, KIND_AT, 4, 5, FE_ERROR_VERSION, "kind 5 is of a newer library"},
     {0, KIND_AT, 4, 0, FE_ERROR_DATA, "kind"},
     {0, FEATURES_AT, 4, 1, FE_ERROR_VERSION, "feature 1 is of a newer library"},
     {2, FEATURES_AT, 4, 4, FE_ERROR_VERSION, "feature 4 is of a newer library"},
@@ -519,6 +530,45 @@ static const wrong wrongs[] = {
     {4, HEADER + 8, 4, 0, FE_ERROR_DATA, "cell_x is 0"},
     {4, FIELD_HEIGHTS + 8, 4, NAN_BITS, FE_ERROR_DATA, "height 2 is nan"},
     {5, PAINTED_HEIGHTS + 80, 1, 2, FE_ERROR_DATA, "cell 0 has material 2 of 2"},
+    // compounds
+    {6, FEATURES_AT, 4, 1, FE_ERROR_VERSION, "feature 1 is of a newer library"},
+    {6, MATERIALS_AT, 4, 1, FE_ERROR_DATA, "number of materials is 1"},
+    {6, HEADER, 4, 0, FE_ERROR_DATA, "number of parts is 0"},
+    {6, HEADER, 4, 65536, FE_ERROR_DATA, "number of parts is 65536"},
+    {6, HEADER, 4, 6, FE_ERROR_DATA, "680 bytes are left, must be 816"},
+    {6, HEADER, 4, 4, FE_ERROR_DATA, "136 bytes stand behind the assets"},
+    {6, HEADER + 4, 4, 1, FE_ERROR_DATA, "680 bytes are left, must be 720"},
+    {7, HEADER + 4, 4, 5, FE_ERROR_DATA, "number of assets is 5"},
+    {6, PART(0) + GEOMETRY, 4, FE_GEOMETRY_PLANE, FE_ERROR_DATA, "is none of a part"},
+    {6, PART(0) + GEOMETRY, 4, FE_GEOMETRY_COMPOUND, FE_ERROR_DATA, "is none of a part"},
+    {6, PART(0) + GEOMETRY, 4, 1000, FE_ERROR_DATA, "geometry 1000 is none"},
+    {6, PART(0) + GEOMETRY, 4, FE_GEOMETRY_HULL, FE_ERROR_DATA, "but there are none"},
+    {6, PART(0) + ASSET, 4, 0, FE_ERROR_DATA, "number of the asset is 0"},
+    {6, PART(0) + SIZES, 4, NAN_BITS, FE_ERROR_DATA, "no sizes of a sphere"},
+    {6, PART(1) + SIZES, 4, 0x3f000000, FE_ERROR_DATA, "no sizes of a box"},
+    {6, PART(1) + SCALE, 4, 0x3f800000, FE_ERROR_DATA, "scale of a form without an asset: 128, must be 0"},
+    {6, PART(1) + PLACE, 4, NAN_BITS, FE_ERROR_DATA, "position is nan"},
+    {6, PART(1) + PLACE, 4, 0x4b000000, FE_ERROR_DATA, "position is 8388608"},
+    {6, PART(1) + TURN, 4, NAN_BITS, FE_ERROR_DATA, "rotation is nan"},
+    {6, PART(1) + TURN, 4, 0x3f800000, FE_ERROR_DATA, "length is not 1"},
+    {6, PART(1) + DENSITY, 4, NAN_BITS, FE_ERROR_DATA, "density is nan"},
+    {6, PART(1) + DENSITY, 4, 0xbf000000, FE_ERROR_DATA, "below 0, and not -1"},
+    {6, PART(1) + OWN, 4, 2, FE_ERROR_DATA, "own_material is 2"},
+    {6, PART(1) + OWN + 4, 4, 1, FE_ERROR_DATA, "what has no use: 1"},
+    {6, PART(1) + MATERIAL + 8, 4, 0x40000000, FE_ERROR_DATA, "material 1, at byte 272: restitution is 2"},
+    {6, PART(0) + MATERIAL, 4, 1, FE_ERROR_DATA, "material that the part has not"},
+    {7, PART(0) + GEOMETRY, 4, FE_GEOMETRY_MESH, FE_ERROR_DATA, "of another kind than the part"},
+    {7, PART(0) + ASSET, 4, 1, FE_ERROR_DATA, "number of the asset is 1, must be 0..0"},
+    {7, PART(1) + ASSET, 4, 2, FE_ERROR_DATA, "number of the asset is 2, must be 0..1"},
+    {7, PART(3) + ASSET, 4, 3, FE_ERROR_DATA, "number of the asset is 3, must be 0..2"},
+    {7, PART(0) + SIZES, 4, 0x3f800000, FE_ERROR_DATA, "sizes of a form that is an asset's: 128, must be 0"},
+    {7, PART(0) + SCALE, 4, 0, FE_ERROR_DATA, "cannot have the scale"},
+    {7, PART(0) + SCALE, 4, 0x49742400, FE_ERROR_DATA, "scale is 1000000"},
+    {7, PART(1) + SCALE, 4, 0x40000000, FE_ERROR_DATA, "cannot have the scale"},
+    {7, PART(4) + KIND_AT, 4, 4, FE_ERROR_DATA, "a compound stands among the assets"},
+    {7, PART(4) + SIZE_AT, 4, 0x7fffffff, FE_ERROR_DATA, "bytes are left, the asset has 2147483647"},
+    {7, PART(4) + SIZE_AT, 4, 48, FE_ERROR_DATA, "the hash is not that"},
+    {7, PART(4), 1, 'f', FE_ERROR_DATA, "no bytes of fe_asset_save"},
 };
 
 static void refusals_name_what_is_wrong(void **state)

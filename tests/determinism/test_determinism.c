@@ -16,6 +16,9 @@ static void gives_the_golden_hashes(void **state)
 #elif !defined(__OPTIMIZE__)
     static const int32_t workers[] = {2};
     const int32_t count = 1, steps = c->script->steps / 2;
+#elif defined(FE_FEW_WORKERS)
+    static const int32_t workers[] = {1, 3};
+    const int32_t count = 2, steps = c->script->steps;
 #else
     static const int32_t workers[] = {1, 2, 3, 8, 16};
     const int32_t count = 5, steps = c->script->steps;

@@ -84,6 +84,55 @@ static fe_asset make_field(fe_store *store, int32_t is_plain)
     return made;
 }
 
+static fe_compound_part make_part(float x, float y, float z)
+{
+    fe_compound_part p;
+    fe_compound_part_init(&p, sizeof p);
+    p.frame.position = (fe_vec3){x, y, z};
+    p.frame.rotation = (fe_quat){0.2f * x, 0.1f, 0.3f * z, 0.9f};
+    return p;
+}
+
+static fe_asset make_compound(fe_store *store, const fe_compound_part *parts, int32_t count)
+{
+    fe_asset made;
+    value_must(fe_compound_create(store, parts, sizeof *parts, count, &made));
+    return made;
+}
+
+static fe_asset make_toy(fe_store *store)
+{
+    fe_compound_part p[5];
+    for (int32_t i = 0; i < 5; ++i) p[i] = make_part(0.7f * (float)(i % 3), 0.2f * (float)i, 0.6f * (float)(i / 3));
+    fe_geometry_sphere(&p[0].geometry, 0.5f);
+    fe_geometry_box(&p[1].geometry, 0.4f, 0.3f, 0.2f);
+    fe_geometry_cylinder(&p[2].geometry, 0.3f, 0.4f);
+    fe_geometry_cone(&p[3].geometry, 0.6f, 0.3f);
+    fe_geometry_capsule(&p[4].geometry, 0.3f, 0.2f);
+    p[1].own_material = 1, p[1].material = surfaces[0];
+    p[3].density = 100.0f, p[3].user_data = UINT64_C(0xfedcba9876543210);
+    return make_compound(store, p, 5);
+}
+
+// Nobody but the compound keeps its assets
+static fe_asset make_yard(fe_store *store)
+{
+    fe_asset hull = make_hull(store, corners, 8), mesh = make_cube(store), field = make_field(store, 0);
+    fe_compound_part p[4];
+    for (int32_t i = 0; i < 4; ++i) p[i] = make_part(1.5f * (float)i, 0.3f * (float)i, 0.5f);
+    fe_geometry_hull(&p[0].geometry, hull);
+    fe_geometry_set_scale(&p[0].geometry, -0.5f, 0.75f, 1.5f);
+    fe_geometry_heightfield(&p[1].geometry, field);
+    fe_geometry_hull(&p[2].geometry, hull);
+    fe_geometry_mesh(&p[3].geometry, mesh);
+    fe_geometry_set_scale(&p[3].geometry, 0.5f, 0.5f, 0.25f);
+    fe_asset made = make_compound(store, p, 4);
+    value_must(fe_asset_destroy(store, hull));
+    value_must(fe_asset_destroy(store, mesh));
+    value_must(fe_asset_destroy(store, field));
+    return made;
+}
+
 fe_asset cooked_seed(fe_store *store, int32_t which)
 {
     switch (which) {
@@ -95,6 +144,10 @@ fe_asset cooked_seed(fe_store *store, int32_t which)
         return make_cube(store);
     case 3:
         return make_sheet(store);
+    case 6:
+        return make_toy(store);
+    case 7:
+        return make_yard(store);
     default:
         return make_field(store, which == 4);
     }
@@ -150,7 +203,9 @@ static void find_geometry(using *u, fe_asset asset)
 {
     fe_hull_info hull;
     fe_mesh_info mesh;
+    fe_compound_info compound;
     fe_hull_info_init(&hull, sizeof hull);
+    fe_compound_info_init(&compound, sizeof compound);
     fe_mesh_info_init(&mesh, sizeof mesh);
     if (fe_hull_get_info(u->store, asset, &hull) == FE_OK) {
         fe_geometry_hull(&u->geometry, asset);
@@ -160,6 +215,12 @@ static void find_geometry(using *u, fe_asset asset)
         fe_mesh_triangle_init(&t, sizeof t);
         int32_t given = mesh.triangle_count + mesh.degenerate_triangles + mesh.duplicate_triangles;
         for (int32_t i = 0; i < given && i < 1000; ++i) value_must(fe_mesh_get_triangle(u->store, asset, i, &t));
+    } else if (fe_compound_get_info(u->store, asset, &compound) == FE_OK) {
+        fe_compound_part part;
+        fe_geometry_compound(&u->geometry, asset);
+        fe_compound_part_init(&part, sizeof part);
+        for (int32_t i = 0; i < compound.part_count && i < 1000; ++i)
+            value_must(fe_compound_get_part(u->store, asset, i, &part));
     } else {
         fe_geometry_heightfield(&u->geometry, asset);
     }
@@ -196,7 +257,7 @@ static void ask(const using *u)
     }
 }
 
-// The asset once more, in a mirror, where it is met too: none if that would be too thin, or of a heightfield
+// The asset once more, in a mirror, where it is met too: none if that would be too thin, or of what has no scale
 static void put_scaled(using *u)
 {
     fe_geometry scaled = u->geometry;
@@ -215,7 +276,8 @@ static void drop_forms(using *u, fe_body *out)
     fe_geometry_cone(forms + 4, s, 0.7f * s);
     forms[5] = u->geometry;
     for (int32_t i = 0; i < 6; ++i) {
-        if (i == 5 && u->geometry.type != FE_GEOMETRY_HULL) fe_geometry_sphere(forms + 5, 0.5f * s);
+        if (i == 5 && u->geometry.type != FE_GEOMETRY_HULL && u->geometry.type != FE_GEOMETRY_COMPOUND)
+            fe_geometry_sphere(forms + 5, 0.5f * s);
         out[i] = put(u, FE_BODY_DYNAMIC, forms + i, at(u, 0.8 * (i % 3 - 1), 0.9, 0.5 * (i / 3)));
     }
 }

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { COOKED_SEEDS = 6 }; // small assets: hulls, meshes, heightfields, with all that they may hold
+enum { COOKED_SEEDS = 8 }; // small assets of each kind, with all that they may hold
 fe_asset cooked_seed(fe_store *store, int32_t which);
 
 // Stamps header and hash on bytes that anybody has changed: only what they hold may be wrong then. In place, size >= 40

@@ -37,6 +37,15 @@ namespace FeatherPhysics
             World.NotNull(parts, "Store.CreateCompound");
             return CreateCompound(new ReadOnlySpan<CompoundPart>(parts));
         }
+
+        /// <summary>
+        /// The compound of which Save() made the bytes, with the assets of its parts. Bytes from anywhere may be given:
+        /// BadDataException, NewerVersionException for what is not sound, WrongKindException for another asset's.
+        /// </summary>
+        public Compound LoadCompound(ReadOnlySpan<byte> bytes)
+        {
+            return new Compound(this, Load(bytes, GeometryType.Compound, "Store.LoadCompound"));
+        }
     }
 
     public unsafe partial struct CompoundPart
@@ -83,6 +92,10 @@ namespace FeatherPhysics
         public void Destroy() { asset.Destroy("Compound"); }
         /// <summary>What it is known by in snapshots.</summary>
         public AssetKey GetKey() { return asset.Key("Compound"); }
+        /// <summary>
+        /// As bytes, the same on every machine, for <see cref="Store.LoadCompound"/>: with the assets of its parts.
+        /// </summary>
+        public byte[] Save() { return asset.Save("Compound"); }
 
         /// <summary>How many parts, their bounds, memory.</summary>
         public CompoundInfo Info

@@ -551,6 +551,9 @@ namespace FeatherPhysics.Tests
                 two[0] = compound.GetPart(0);
                 two[1] = new CompoundPart(Geometry.Hull(world.CreateHull(Cube)).Scaled(1, -2, 1));
                 Compound second = world.CreateCompound(two);
+                byte[] saved = second.Save();
+                Check.True(Equal(world.Store.LoadCompound(saved).Save(), saved), "as bytes, with its hull");
+                Check.Throws<WrongKindException>(() => world.Store.LoadHull(saved), "another kind");
                 Check.Same(second.GetPart(1).Geometry.Scale, new Vector3(1, -2, 1), "a scaled part");
                 shape.Geometry = Geometry.Compound(second);
                 Check.Near(body.Mass, 2000 * (ball + 16), 0.05, "another compound");

@@ -52,7 +52,7 @@ for _, class in ipairs({ Heightfield, Hull, Mesh, objects.Compound }) do
     function class:destroy() core.asset_destroy(self.native, self.id) end
     function class:isDestroyed() return self.store:isDestroyed() or core.asset_is_valid(self.native, self.id) == 0 end
     function class:getStore() return self.store end
-    -- a string for Store:load, the same on every machine; an error for a compound: save the assets of its parts
+    -- a string for Store:load, the same on every machine; of a compound with the assets of its parts
     function class:save() return (select(2, core.asset_save(self.native, self.id))) end
     -- 32 hexadecimal digits: equal content has equal keys, on every machine
     function class:getKey() return core.asset_get_key(self.native, self.id) end
@@ -60,9 +60,9 @@ end
 
 local CLASSES = {
     [tonumber(core.geometry_heightfield(0).type)] = Heightfield, [tonumber(core.geometry_hull(0).type)] = Hull,
-    [tonumber(core.geometry_mesh(0).type)] = Mesh,
+    [tonumber(core.geometry_mesh(0).type)] = Mesh, [tonumber(core.geometry_compound(0).type)] = objects.Compound,
 }
--- The heightfield, hull or mesh of which save() made the string. Any string may be given: it is sound, or an error.
+-- The heightfield, hull, mesh or compound of which save() made the string. Any string may be given: it is sound, or an error.
 function Store:load(bytes)
     local id = core.asset_load(self.native, bytes)
     return shared.asset_of(self, CLASSES[core.asset_get_type(self.native, id)], id)

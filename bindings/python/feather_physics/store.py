@@ -123,7 +123,7 @@ class Store:
         return Compound(self, _flat.compound_create(self._capsule, [self._flat_part(part) for part in parts]))
 
     def load(self, data: Any) -> "Asset":
-        """The heightfield, hull or mesh of which asset.save() made these bytes, in less time than it was made:
+        """The heightfield, hull, mesh or compound of which asset.save() made these bytes, in less time than it was made:
         cook when a game is built, load when it starts. Bytes from anywhere may be given: what is accepted
         is sound, the rest a DataError or a VersionError that tells what is wrong with it."""
         return self._asset(_flat.asset_load(self._capsule, data))
@@ -132,6 +132,8 @@ class Store:
         kind = _flat.asset_get_type(self._capsule, id)
         if kind == _flat.FE_GEOMETRY_HULL:
             return Hull(self, id)
+        if kind == _flat.FE_GEOMETRY_COMPOUND:
+            return Compound(self, id)
         return Mesh(self, id) if kind == _flat.FE_GEOMETRY_MESH else Heightfield(self, id)
 
     def _flat_part(self, part: Union[Part, Mapping[str, Any]]) -> Any:
@@ -184,8 +186,8 @@ class Asset:
         return not self._store.closed and _flat.asset_is_valid(self._store._capsule, self._id) == 1
 
     def save(self) -> bytes:
-        """The asset as bytes, the same on every machine, for store.load(). An UnsupportedError for a compound: save
-        the assets of its parts."""
+        """The asset as bytes, the same on every machine, for store.load(): of a compound with the assets of its
+        parts."""
         saved: bytes = _flat.asset_save(self._store._capsule, self._id)
         return saved
 

@@ -219,12 +219,22 @@ def refuse(world: World) -> None:
     compound.destroy()
 
 
+def test_a_compound_is_saved_with_the_assets_of_its_parts(world: World) -> None:
+    hull = world.create_hull(CUBE)
+    compound = world.create_compound([Part(Sphere(0.5), tag=7), Part(hull, position=(1, 0, 0), density=5.0)])
+    saved = compound.save()
+    with World() as other:
+        loaded = other.store.load(saved)
+        assert isinstance(loaded, Compound) and loaded.save() == saved and loaded.key == compound.key
+        assert loaded.parts[0].tag == 7 and isinstance(loaded.parts[1].geometry, Hull)
+        other.create_body().add(loaded)
+        other.step(1 / 60)
+
+
 def test_what_a_compound_cannot(world: World) -> None:
     body = world.create_body()
     compound = world.create_compound([Part(Sphere(0.5))])
     mesh = world.create_mesh([(-1, 0, -1), (1, 0, -1), (-1, 0, 1)], [(0, 2, 1)])
-    with pytest.raises(UnsupportedError, match="compound"):
-        compound.save()
     with pytest.raises(UnsupportedError, match="compound"):
         body.add(Scaled(compound, (2, 2, 2)))  # type: ignore[arg-type]
     with pytest.raises(UnsupportedError):
