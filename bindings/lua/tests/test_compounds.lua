@@ -152,7 +152,7 @@ function TestCompounds.testSavedWithTheAssetsOfTheirParts()
     lu.assertEquals(loaded:getKey(), compound:getKey())
     lu.assertEquals(loaded:getPart(0).tag, 7)
     other:newBody():newCompound(loaded)
-    other:step(1 / 60)
+    other:update(STEP)
 end
 
 function TestCompounds.testWrongPartsAreNamed()
