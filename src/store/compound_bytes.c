@@ -164,8 +164,7 @@ static int32_t read_own_form(fe__cooked *c, int32_t kind, fe__form *form)
     fe__form_numbers n = {.kind = kind};
     n.radius = fe__take_float(&c->at), n.half_height = fe__take_float(&c->at), n.half = fe__take_vec3(&c->at);
     *form = fe__form_of_numbers(&n);
-    if (!fe__form_is_sound(form) || kind == FE__FORM_PLANE)
-        return fe__cooked_refuse(c, at, "these are no sizes of a %s", fe__forms[kind].name);
+    if (!fe__form_is_sound(form)) return fe__cooked_refuse(c, at, "these are no sizes of a %s", fe__forms[kind].name);
     return is_zero(c, "scale of a form without an asset", 12);
 }
 
@@ -173,7 +172,7 @@ static int32_t read_form(fe_store *store, fe__cooked *c, children *kids, fe__for
 {
     const unsigned char *at = c->at;
     int32_t geometry = fe__take_i32(&c->at), kind = fe__form_of_geometry(geometry), number;
-    if (kind < 0 || kind == FE__FORM_COMPOUND || kind == FE__FORM_PLANE)
+    if (kind < 0 || fe__forms[kind].of_parts || fe__forms[kind].unbounded)
         return fe__cooked_refuse(c, at, "geometry %d is none of a part", (int)geometry);
     int32_t has_asset = fe__forms[kind].has_asset, most = fe__mini(kids->used, kids->count - 1);
     if (has_asset && most < 0) return fe__cooked_refuse(c, at, "the part has an asset, but there are none");

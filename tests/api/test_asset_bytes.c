@@ -591,6 +591,22 @@ static void refusals_name_what_is_wrong(void **state)
     OK(fe_store_destroy(store));
 }
 
+static void an_asset_that_no_part_has_is_refused(void **state)
+{
+    (void)state;
+    fe_store *store = new_store(NULL);
+    fe_asset loaded;
+    blob toy = seed(6), hull = seed(0), both = {malloc((size_t)(toy.size + hull.size)), toy.size + hull.size};
+    memcpy(both.bytes, toy.bytes, (size_t)toy.size);
+    memcpy(both.bytes + toy.size, hull.bytes, (size_t)hull.size);
+    both.bytes[HEADER + 4] = 1; // asset
+    cooked_stamp(both.bytes, both.size);
+    REFUSES(NULL, FE_ERROR_DATA, fe_asset_load(store, both.bytes, both.size, &loaded));
+    SAYS("1 assets follow, parts have 0");
+    free(toy.bytes), free(hull.bytes), free(both.bytes);
+    OK(fe_store_destroy(store));
+}
+
 // Two slots with one triangle, which would lead a walk along its cycle around for ever
 static void numbers_are_a_permutation(void **state)
 {
@@ -638,6 +654,7 @@ int main(int argument_count, char **arguments)
         cmocka_unit_test(bytes_may_be_cut_anywhere),
         cmocka_unit_test(each_word_may_be_any_number),
         cmocka_unit_test(refusals_name_what_is_wrong),
+        cmocka_unit_test(an_asset_that_no_part_has_is_refused),
         cmocka_unit_test(numbers_are_a_permutation),
         cmocka_unit_test(an_altered_byte_is_told_by_the_hash),
     };
