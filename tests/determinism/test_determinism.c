@@ -12,7 +12,11 @@ static void gives_the_golden_hashes(void **state)
     const condition *c = *state;
 #if defined(FE_SANITIZED)
     static const int32_t workers[] = {3};
-    const int32_t count = 1, steps = 100;
+#if defined(__SANITIZE_THREAD__)
+    const int32_t count = 1, steps = PLAY_CHECK_STEPS;
+#else
+    const int32_t count = 1, steps = 2 * PLAY_CHECK_STEPS;
+#endif
 #elif !defined(__OPTIMIZE__)
     static const int32_t workers[] = {2};
     const int32_t count = 1, steps = c->script->steps / 2;
