@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp), the site of the API
+# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp, wasm: JavaScript), the site of the API
 # (docs) and the bench (all) need beyond the C compiler: installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
@@ -100,7 +100,7 @@ missing_for_foreign() {
 # Prints the missing packages, by their Debian names.
 missing() {
     case $wanted in
-    check | python | lua | csharp | docs) "missing_for_$wanted"; return ;;
+    check | python | lua | csharp | docs | wasm) "missing_for_$wanted"; return ;;
     esac
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
