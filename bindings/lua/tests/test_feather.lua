@@ -424,7 +424,8 @@ function TestErrors.testFinalizersLeaveTheError()
     local pause = collectgarbage("setpause", 50) -- the collector never rests
     local natives = {}
     for i = 1, 100 do
-        natives[i] = feather.newWorld({ pool = feather.newPool(1), store = feather.newStore() }).native
+        natives[i] = feather.newWorld({ pool = feather.newPool(1),
+        history = world:newHistory(), store = feather.newStore() }).native
         for _ = 1, 20 do fails("fe_body_set_mass", ball.setMass, ball, -1) end
     end
     collectgarbage("setpause", pause)
