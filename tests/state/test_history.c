@@ -107,6 +107,13 @@ static void go_on(const script *s, const course *c, play *p, int32_t to)
         fail_msg("%s goes another way in step %d", s->name, (int)to);
 }
 
+// What a script does to the store is not undone: a second fe_asset_destroy is refused
+static int32_t take_refusal(play *p, fe_result result)
+{
+    if (result < 0 && result != FE_ERROR_STALE) fail_msg("step %d: %s", (int)p->step, fe_last_error());
+    return 0;
+}
+
 static void goes_back_and_on(const script *s, int32_t steps, int32_t every)
 {
     static course c;
@@ -117,6 +124,7 @@ static void goes_back_and_on(const script *s, int32_t steps, int32_t every)
     fe_world *world = new_world(&store, 3);
     fe_history *history = make_history(world, FRAMES, 0);
     play_begin(&p, world);
+    p.after = take_refusal;
     for (int32_t to = 1; to <= steps; ++to) {
         go_on(s, &c, &p, to);
         keep(history, &p, &frames[to % FRAMES]);
@@ -297,7 +305,7 @@ static void frames_of_a_sleeping_world_share_what_they_hold(void **state)
     FE_TRUE(fe_history_get_frames(history, frames, sizeof *frames, 16) == 7 && frames[6].bytes > 1000);
     FE_TRUE(fe_history_restore(history, 5) == FE_OK && is_saved(world, saved[5]));
     FE_TRUE(fe_history_keep(history, 6) == FE_OK);
-    FE_TRUE(fe_body_set_user_data(world, body, 77) == FE_OK && is_saved(world, called) == 0);
+    FE_TRUE(fe_body_set_user_data(world, body, 77) == FE_OK && is_saved(world, called));
     // and what a call woke goes back to sleep
     FE_TRUE(fe_history_restore(history, 3) == FE_OK && is_saved(world, saved[3]));
     const fe_vec3 up = {0.0f, 3.0f, 0.0f};
@@ -373,11 +381,10 @@ static void edited_heights_are_put_back(void **state)
         FE_TRUE(height_of(store, field) == heights[i]);
         step(world), step(other);
     }
-    fe_transform at;
+    fe_bounds ground;
     fe_body bodies[2];
-    for (int32_t k = 0; k < 120; ++k) step(other);
-    FE_TRUE(fe_world_get_bodies(other, bodies, 2) == 2 && fe_body_get_transform(other, bodies[1], &at) == FE_OK);
-    FE_TRUE(at.position.y > 0.25); // on the ground as it was made, where it went down 1 m
+    FE_TRUE(fe_world_get_bodies(other, bodies, 2) == 2 && fe_body_get_bounds(other, bodies[0], &ground) == FE_OK);
+    FE_TRUE(ground.lower.y > -0.1); // where it went down 1 m meanwhile
     for (int32_t i = 0; i < 4; ++i) free(saved[i].data);
     destroy(world), destroy(other);
     FE_TRUE(fe_store_destroy(store) == FE_OK);

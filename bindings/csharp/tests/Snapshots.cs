@@ -68,16 +68,16 @@ namespace FeatherPhysics.Tests
                     history.Keep(frame);
                     Check.Same(world.Hash, hashes[frame], "hash of frame " + frame);
                 }
-                Check.Throws<StaleHandleException>(() => history.Restore(11));
-                Check.Throws<BadArgumentException>(() => history.Keep(19));
-                Check.Throws<BadArgumentException>(() => new History(world, new HistoryDef { Frames = 0 }));
-                Check.Throws<BadArgumentException>(() => new History(null));
+                Check.Throws<StaleHandleException>(() => history.Restore(11), "frame 11");
+                Check.Throws<BadArgumentException>(() => history.Keep(19), "above 19");
+                Check.Throws<BadArgumentException>(() => new History(world, new HistoryDef { Frames = 0 }), "frames");
+                Check.Throws<BadArgumentException>(() => new History(null), "null");
                 history.Dispose();
                 history.Dispose();
-                Check.Throws<ObjectDisposedException>(() => history.Keep(30));
+                Check.Throws<ObjectDisposedException>(() => history.Keep(30), "disposed");
                 history = new History(world);
                 world.Dispose();
-                Check.Throws<ObjectDisposedException>(() => history.Keep(1));
+                Check.Throws<ObjectDisposedException>(() => history.Keep(1), "disposed");
                 history.Dispose();
             }
         }
