@@ -220,12 +220,17 @@ static store_box *store_of(PyObject *object)
     return box && store_lives(box) ? box : NULL;
 }
 
+static int may_not_use(const history_box *box)
+{
+    if (history_lives(box)) return 0;
+    (void)fails(FE_ERROR_STALE, "the history is closed, or its world is");
+    return 1;
+}
+
 static history_box *history_of(PyObject *object)
 {
     history_box *box = box_of(object, history_name, "history");
-    if (!box || history_lives(box)) return box;
-    (void)fails(FE_ERROR_STALE, "the history is closed, or its world is");
-    return NULL;
+    return box && !may_not_use(box) ? box : NULL;
 }
 
 /// Makes a world hold a reference to what must not go before it.

@@ -97,7 +97,7 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 }
 %typemap(in) const fe_history *history = fe_history *history;
 // when all arguments are converted, as above
-%typemap(check) fe_history *history, const fe_history *history "if (!history_of($input)) SWIG_fail;"
+%typemap(check) fe_history *history, const fe_history *history "if (may_not_use(given$argnum)) SWIG_fail;"
 %typemap(argout) fe_history *history %{
     if (strcmp("$symname", "history_destroy") == 0) given$argnum->history = NULL;
 %}

@@ -137,7 +137,7 @@ static fe__held *hold(fe_history *h, fe_result *result)
 fe_result fe__history_keep(fe_history *h, int64_t number)
 {
     fe_world *w = h->world;
-    fe_result result;
+    fe_result result = FE_OK;
     fe__held *held = is_last_frame(h) ? fe__history_frame(h, h->count - 1)->held : hold(h, &result);
     if (!held) return result;
     ++held->users;

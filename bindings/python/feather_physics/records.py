@@ -481,7 +481,7 @@ class Packed:
 
 
 def _numpy_format(code: str) -> Any:
-    kind = {"Q": "<u8", "I": "<u4", "i": "<i4", "f": "<f4", "d": "<f8"}[code[-1]]
+    kind = {"Q": "<u8", "q": "<i8", "I": "<u4", "i": "<i4", "f": "<f4", "d": "<f8"}[code[-1]]
     return (kind, (int(code[:-1]),)) if code[:-1] else kind
 
 
