@@ -424,8 +424,7 @@ function TestErrors.testFinalizersLeaveTheError()
     local pause = collectgarbage("setpause", 50) -- the collector never rests
     local natives = {}
     for i = 1, 100 do
-        natives[i] = feather.newWorld({ pool = feather.newPool(1),
-        history = world:newHistory(), store = feather.newStore() }).native
+        natives[i] = feather.newWorld({ pool = feather.newPool(1), store = feather.newStore() }).native
         for _ = 1, 20 do fails("fe_body_set_mass", ball.setMass, ball, -1) end
     end
     collectgarbage("setpause", pause)
@@ -518,6 +517,7 @@ function TestCore.testTheTableOfTheDocument()
         mesh = world:newMesh({ vertices = CUBE, triangles = { 0, 2, 3 } }),
         compound = world:newCompound({ { "sphere", 1 } }),
         heightfield = world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }), pool = feather.newPool(1),
+        history = world:newHistory(),
         joint = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } }),
     }
     local count = 0
