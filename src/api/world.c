@@ -1,6 +1,7 @@
 // world.c - the API of worlds: creation, step, settings, counters.
 #include "api/world.h"
 #include "core/fp_state.h"
+#include "state/history.h"
 #include "step/step.h"
 #include "world/handles.h"
 #include "world/hash.h"
@@ -97,6 +98,7 @@ fe_result fe_world_destroy(fe_world *world)
         return fe__refuse_writer(function);
     }
     inside = NULL; // its word goes with it
+    fe__histories_end(world);
     fe__world_destroy(world);
     return FE_OK;
 }
@@ -110,6 +112,7 @@ fe_result fe_world_step(fe_world *world, float dt)
     if (!fe__owner_be_alone(inside, FE__STEP)) {
         return fe__refuse_writer(function);
     }
+    inside->entries -= (uint64_t)fe__world_rests(world); // nothing is written then
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, fe__counted_dt(dt));
     fe__fp_leave(fp);
