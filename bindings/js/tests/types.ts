@@ -1,6 +1,7 @@
 // What the types accept, and what they refuse.
 import Feather, { type Body, type Hit, type World } from 'feather-physics';
 import FromModule from 'feather-physics/module';
+import { BodyInstances, rayOf } from 'feather-physics/three';
 
 async function play(): Promise<number> {
     const { World, FeatherError, Axis } = await Feather();
@@ -25,6 +26,9 @@ async function play(): Promise<number> {
     body.isValid = true;
     // @ts-expect-error: a hit may be none
     hit.fraction;
+    const drawn = new BodyInstances({ count: 1, instanceMatrix: { count: 1, array: new Float32Array(16), needsUpdate: false } }, world, [body]);
+    drawn.keep(world.getMoved());
+    world.raycast(...rayOf({}, 0, 0));
     await FromModule(new Uint8Array());
     return angle + poses[0]! + (hit?.fraction ?? 0);
 }
