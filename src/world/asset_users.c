@@ -67,8 +67,7 @@ fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset)
     return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
 }
 
-// Has a shape of the world the asset, under whatever scale?
-static int32_t is_used(const fe_world *world, int32_t asset)
+int32_t fe__uses_asset(const fe_world *world, int32_t asset)
 {
     const fe_store *store = world->store;
     if (!fe__store_asset(store, asset)->scaled) return fe__find_asset_use(world, asset) != NULL;
@@ -160,13 +159,13 @@ static fe_result enter(fe_world *world)
 static void leave_until(fe_store *store, int32_t asset, const fe__store_member *end)
 {
     for (fe__store_member *m = store->first_member; m != end; m = m->next)
-        if (is_used(m->world, asset)) fe__owner_leave(&m->world->owner);
+        if (fe__uses_asset(m->world, asset)) fe__owner_leave(&m->world->owner);
 }
 
 fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
 {
     for (fe__store_member *m = store->first_member; m; m = m->next) {
-        fe_result entered = is_used(m->world, asset) ? enter(m->world) : FE_OK;
+        fe_result entered = fe__uses_asset(m->world, asset) ? enter(m->world) : FE_OK;
         if (entered == FE_OK) continue;
         leave_until(store, asset, m);
         return entered;
