@@ -119,6 +119,12 @@ static fe_result tell_step(const char *function, fe_player *p, const told_step *
                               (long long)p->step, what.field ? what.field : "poses or velocities");
 }
 
+static int32_t is_same(const told_step *a, const told_step *b)
+{
+    return a->hash == b->hash && a->deep == b->deep && a->awake == b->awake && a->pairs == b->pairs &&
+           a->linked == b->linked;
+}
+
 // As a 32-bit sum: what hostile bytes add up to is no overflow
 static int32_t add(int32_t a, int64_t b) { return (int32_t)(uint32_t)((uint64_t)a + (uint64_t)b); }
 
@@ -134,7 +140,7 @@ fe_result fe__player_compare_step(const char *function, fe_player *p, int32_t fl
     p->last = (fe__last_step){p->last.dt, then.awake, then.pairs, then.linked};
     if (flags & FE__STEP_IS_DEEP) then.deep = fe__in_u64(in), now.deep = fe__deep_hash(w);
     if (flags & FE__STEP_HAS_ANSWERS) fe__in_bytes(in, (int64_t)(fe__in_varint(in) + 7) / 8);
-    int32_t differs = memcmp(&then, &now, sizeof now) != 0 || p->answered != p->answer_count;
+    int32_t differs = !is_same(&then, &now) || p->answered != p->answer_count;
     fe_result result = flags & FE__STEP_HAS_TRACES ? compare_traces(function, p, differs) : FE_OK;
     if (in->result != FE_OK) return in->result;
     return differs && result == FE_OK ? tell_step(function, p, &then, &now) : result;
