@@ -124,11 +124,71 @@ static fe_result name_assets(const char *function, fe_player *p, const unsigned 
     return FE_OK;
 }
 
+// ---- compounds -----------------------------------------------------------------------------------------------------
+// Of the keyframe's assets, the one with the content of another
+static fe_asset same_content(const fe_player *p, const named *n, fe_asset asset)
+{
+    fe_asset_key key;
+    if (fe_asset_get_key(p->world->store, asset, &key) != FE_OK) return asset;
+    for (int32_t i = 0; i < n->count; ++i)
+        if (memcmp(n->keys + i, &key, sizeof key) == 0) return n->assets[i];
+    return asset;
+}
+
+// 1: a part has another asset now
+static int32_t take_parts(const fe_player *p, const named *n, fe_asset compound, fe_compound_part *parts, int32_t count)
+{
+    int32_t changed = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        parts[i].struct_size = sizeof *parts;
+        fe_compound_get_part(p->world->store, compound, i, parts + i);
+        fe_asset *asset = &parts[i].geometry.asset, same = *asset ? same_content(p, n, *asset) : 0;
+        changed |= same != *asset;
+        *asset = same;
+    }
+    return changed;
+}
+
+// A compound that was loaded has parts of its own; in the keyframe others share them
+static fe_result share_parts(const char *function, fe_player *p, const named *n, fe_asset *compound)
+{
+    fe_store *store = p->world->store;
+    fe_compound_info info;
+    fe_compound_info_init(&info, sizeof info);
+    if (fe_asset_get_type(store, *compound) != FE_GEOMETRY_COMPOUND) return FE_OK;
+    FE_TRY(fe_compound_get_info(store, *compound, &info));
+    size_t size = (size_t)info.part_count * sizeof(fe_compound_part);
+    fe_compound_part *parts = fe__allocate(&p->memory, size);
+    if (!parts) return fe__report(function, FE_ERROR_MEMORY);
+    fe_asset made = 0;
+    fe_result result = FE_OK;
+    if (take_parts(p, n, *compound, parts, info.part_count))
+        result = fe_compound_create(store, parts, sizeof *parts, info.part_count, &made);
+    fe__release(&p->memory, parts, size);
+    if (made) {
+        fe_asset_destroy(store, *compound);
+        *compound = made;
+    }
+    return result;
+}
+
+static fe_result share_all_parts(const char *function, fe_player *p, const unsigned char *at, named *n)
+{
+    for (int32_t i = 0; i < n->count; ++i, at += FE__ASSET_ENTRY) {
+        const unsigned char *handle = at;
+        fe__replay_asset *a = find(p, fe__take_u64(&handle));
+        FE_TRY(share_parts(function, p, n, &a->own));
+        n->assets[i] = a->own;
+    }
+    return FE_OK;
+}
+
 static fe_result restore_with(const char *function, fe_player *p, const fe__fed_chunk *keyframe, named *n)
 {
     int64_t front = FE__KEYFRAME_FRONT + (int64_t)FE__ASSET_ENTRY * n->count;
     const unsigned char *has_filter = keyframe->content + 4;
     FE_TRY(name_assets(function, p, keyframe->content + FE__KEYFRAME_FRONT, n));
+    FE_TRY(share_all_parts(function, p, keyframe->content + FE__KEYFRAME_FRONT, n));
     fe_restore_options options;
     fe_restore_options_init(&options, sizeof options);
     options.asset_count = n->count, options.keys = n->keys, options.assets = n->assets;
