@@ -125,13 +125,15 @@ static fe_result name_assets(const char *function, fe_player *p, const unsigned 
 }
 
 // ---- compounds -----------------------------------------------------------------------------------------------------
-// Of the keyframe's assets, the one with the content of another
+// Of the keyframe's assets, the one with the content of a part's, whose handle may be dead
 static fe_asset same_content(const fe_player *p, const named *n, fe_asset asset)
 {
-    fe_asset_key key;
-    if (fe_asset_get_key(p->world->store, asset, &key) != FE_OK) return asset;
+    const fe_store *store = p->world->store;
+    fe__store_lock(store);
+    fe__asset_key key = fe__asset_key_of(store, fe__id_slot_of(asset));
+    fe__store_unlock(store);
     for (int32_t i = 0; i < n->count; ++i)
-        if (memcmp(n->keys + i, &key, sizeof key) == 0) return n->assets[i];
+        if (n->keys[i].words[0] == key.words[0] && n->keys[i].words[1] == key.words[1]) return n->assets[i];
     return asset;
 }
 
