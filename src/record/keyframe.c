@@ -157,7 +157,6 @@ static void write_edit(fe_recorder *r, int32_t number, fe_asset handle, const in
     for (int32_t i = 0; i < count_count; ++i) at = fe__put_i32(at, counts[i]);
     for (int64_t i = 0; i < word_count; ++i) at = fe__put_u32(at, words[i]);
     fe__op_end(r, at);
-    forget_asset(r, handle); // its key is another now
 }
 
 typedef struct edit {
