@@ -104,6 +104,7 @@ typedef struct fe_pool fe_pool;         ///< worker threads that several worlds 
 typedef struct fe_store fe_store;       ///< assets that several worlds may share
 typedef struct fe_recorder fe_recorder; ///< a recording of a world while it grows
 typedef struct fe_player fe_player;     ///< a world that does what a recording says
+typedef struct fe_history fe_history;   ///< the last frames of a world, to go back to
 
 /// A vector: m, m/s, N... as its field says.
 typedef struct fe_vec3 {
@@ -1848,6 +1849,52 @@ FE_API fe_result fe_snapshot_check(const void *bytes, int64_t size, fe_snapshot_
 /// @return how many there are, or an error
 FE_API int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *out_keys, uint32_t stride,
                                       int32_t capacity);
+
+// ---- histories ------------------------------------------------------------------------------------------------------
+// The last frames of a world, in memory, for rollback: keep each frame before its step, and when an input of the past
+// turns out to be another one, go back to that frame and step again. A world that was put back answers and moves as it
+// did then, bit for bit. docs/SNAPSHOTS.md shows the loop.
+//
+// A history is of one world, which may have several, and ends with fe_history_destroy or with the world. Calls of one
+// that is gone are FE_ERROR_STALE.
+
+typedef struct fe_history_def {
+    uint32_t struct_size;
+    int32_t frames; ///< how many are kept, 1 to 65536. Default 16
+    int64_t bytes;  ///< what all frames may hold together, 0: as much as they need. Default 0
+} fe_history_def;
+
+FE_API void fe_history_def_init(fe_history_def *def, uint32_t struct_size);
+
+/// @param def  NULL: the defaults
+FE_API fe_result fe_history_create(fe_world *world, const fe_history_def *def, fe_history **out_history);
+FE_API fe_result fe_history_destroy(fe_history *history);
+
+/// Keeps the world as it is: all that a snapshot holds, and the heights and materials of its assets. Beside queries,
+/// never beside a step. When there are too many frames, or bytes, the oldest go. While a world sleeps and is left
+/// alone, its frames share what they hold. The memory is the world's; in a history that is full it is used again.
+/// @param frame  a number of yours, above that of the last frame kept
+/// @return FE_ERROR_LIMIT when the frame alone needs more than `bytes`; FE_ERROR_MEMORY. Nothing changed then
+FE_API fe_result fe_history_keep(fe_history *history, int64_t frame);
+
+/// Puts the world back to a frame; those after it go, it stays. Handles of what was made since are stale, and may be
+/// given again to something else. The pair filter stays as it is. Heights and materials that were edited since are put
+/// back, for every world that has them.
+/// @return FE_ERROR_STALE when there is no such frame; FE_ERROR_MEMORY; FE_ERROR_STEPPING, FE_ERROR_BUSY also when
+///         another world with an edited asset is. Nothing changed then
+FE_API fe_result fe_history_restore(fe_history *history, int64_t frame);
+
+/// A frame of a history.
+typedef struct fe_history_frame {
+    int64_t frame; ///< its number
+    int64_t bytes; ///< what it holds, without what the frame before it has, too
+} fe_history_frame;
+
+/// Which frames there are, the oldest first.
+/// @param stride  bytes: sizeof of the caller's record
+/// @return how many, or an error
+FE_API int32_t fe_history_get_frames(const fe_history *history, fe_history_frame *out_frames, uint32_t stride,
+                                     int32_t capacity);
 
 // ---- recordings -----------------------------------------------------------------------------------------------------
 //

@@ -3,6 +3,7 @@
 #include "api/record.h"
 #include "core/fp_state.h"
 #include "record/recording.h"
+#include "state/history.h"
 #include "step/step.h"
 #include "world/handles.h"
 #include "world/hash.h"
@@ -100,6 +101,7 @@ fe_result fe_world_destroy(fe_world *world)
     }
     inside = NULL; // its word goes with it
     if (world->recorder) fe__recorder_detach(world->recorder, FE_END);
+    fe__histories_end(world);
     fe__world_destroy(world);
     return FE_OK;
 }
@@ -114,6 +116,7 @@ fe_result fe_world_step(fe_world *world, float dt)
         return fe__refuse_writer(function);
     }
     if (world->recorder) fe__record_step_begin(world->recorder);
+    inside->entries -= (uint64_t)fe__world_rests(world); // nothing is written then
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, fe__counted_dt(dt));
     if (world->recorder) fe__record_step_end(world->recorder, dt, result);

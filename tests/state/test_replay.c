@@ -345,6 +345,40 @@ static void restores_are_played(void **state)
     recorded_free(&r);
 }
 
+// A game that goes back eight frames, again and again
+static void rollback_is_played(void **state)
+{
+    (void)state;
+    fe_world *world = new_world(NULL);
+    fe_history *history;
+    add_ground(world);
+    fe_body first = add_box(world, 0.0, 1.0, 0.0, 0);
+    for (int32_t i = 1; i < 6; ++i) add_box(world, 0.1 * i, 1.0 + 1.2 * i, 0.0, 0);
+    FE_TRUE(fe_history_create(world, NULL, &history) == FE_OK);
+    fe_recorder *recorder = recorded_begin(world, FE_RECORD_ASSETS, 1000);
+    recorded r = {0};
+    for (int32_t frame = 1; frame <= 40; ++frame) {
+        FE_TRUE(fe_history_keep(history, frame) == FE_OK);
+        steps(world, 1);
+        if (frame % 10) continue;
+        FE_TRUE(fe_history_restore(history, frame - 7) == FE_OK);
+        FE_TRUE(fe_body_add_impulse(world, first, &(fe_vec3){200.0f, 0.0f, 0.0f}) == FE_OK);
+        for (int32_t again = frame - 6; again <= frame; ++again) {
+            steps(world, 1);
+            FE_TRUE(fe_history_keep(history, again) == FE_OK);
+        }
+    }
+    uint64_t hash = hash_of(world);
+    recorded_read(&r, recorder);
+    FE_TRUE(fe_recorder_destroy(recorder) == FE_OK && fe_world_destroy(world) == FE_OK);
+    played p = recorded_play(r.bytes, r.size, 2, FE_SIMD_PLAIN, 0);
+    if (p.result != FE_END) fail_msg("%s", fe_last_error());
+    assert_int_equal(p.steps, 40 + 4 * 7);
+    FE_TRUE(recorded_hash(p.player) == hash);
+    FE_TRUE(fe_player_destroy(p.player) == FE_OK);
+    recorded_free(&r);
+}
+
 static fe_asset new_field(fe_store *store)
 {
     float heights[25] = {0};
@@ -710,6 +744,7 @@ int main(void)
         cmocka_unit_test(a_released_world_goes_on_alone),
         cmocka_unit_test(answers_of_a_filter_are_played),
         cmocka_unit_test(restores_are_played),
+        cmocka_unit_test(rollback_is_played),
         cmocka_unit_test(edits_of_the_ground_are_played),
         cmocka_unit_test(cut_files_play_to_the_last_whole_chunk),
         cmocka_unit_test(a_flight_recorder_keeps_the_last_seconds),

@@ -30,6 +30,7 @@ local core = { ffi = true }
 local Box = ffi.typeof("struct { fe_world *const p; fe_pool *const pool; fe_store *const store; }")
 local PoolBox = ffi.typeof("struct { fe_pool *const p; }")
 local StoreBox = ffi.typeof("struct { fe_store *const p; }")
+local HistoryBox = ffi.typeof("struct { fe_history *const p; }")
 local env = { C = C, ffi = ffi, tonumber = tonumber, type = type, math = math }
 
 -- ---- worlds, pools and stores ---------------------------------------------------------------------------------------
@@ -79,6 +80,18 @@ function env.store(box)
     local owner = owners[box]
     if box.p == nil or (owner and owner.p == nil) then fail("the store is destroyed") end
     return box.p
+end
+
+-- A history ends with its world, which it keeps.
+function env.history(box)
+    if not ffi.istype(HistoryBox, box) then fail("a history is needed, not a %s", type(box)) end
+    if box.p == nil or owners[box].p == nil then fail("the history is destroyed") end
+    return box.p
+end
+function env.new_history(pointer, world)
+    local box = HistoryBox(pointer)
+    owners[box] = world
+    return box
 end
 
 local function end_world(box)

@@ -518,6 +518,7 @@ function TestCore.testTheTableOfTheDocument()
         mesh = world:newMesh({ vertices = CUBE, triangles = { 0, 2, 3 } }),
         compound = world:newCompound({ { "sphere", 1 } }),
         heightfield = world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }), pool = feather.newPool(1),
+        history = world:newHistory(),
         joint = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } }),
     }
     local count = 0
