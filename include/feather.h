@@ -499,6 +499,7 @@ typedef enum fe_simd {
     FE_SIMD_AVX2 = 3,
     FE_SIMD_AVX512 = 4,
     FE_SIMD_NEON = 5,
+    FE_SIMD_WASM = 6, ///< of WebAssembly
     FE_SIMD_FORCE32 = 0x7fffffff
 } fe_simd;
 

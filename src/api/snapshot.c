@@ -301,7 +301,7 @@ static fe_result check_all(const char *function, fe__snapshot *snapshot)
     const fe_restore_options options = {.struct_size = sizeof options};
     fe_world *world;
     const fe_world_def def = {
-        .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_PLAIN, .number = 1};
+        .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_AUTO, .number = 1};
     FE_TRY(fe__create_world(function, &def, &world));
     world->pair_filter = accept;
     fe_result result = restore_opened(function, world, &options, snapshot);

@@ -53,7 +53,7 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     FE_CHECK_INT(full->worker_count, 1, FE_MAX_WORKERS);
     FE_CHECK_VEC3(&full->gravity, FE_MAX_SPEED);
     FE_CHECK_INT(full->substeps, 1, FE_MAX_SUBSTEPS);
-    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_WASM);
     FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
     if (full->allocator) {
         FE_TRY(fe__read_allocator(function, full->allocator, &whole->allocator));
