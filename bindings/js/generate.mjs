@@ -15,7 +15,9 @@ fe_heightfield_get_heights fe_mesh_set_materials fe_world_raycast_many fe_world_
 fe_world_get_transforms fe_world_set_transforms fe_world_get_transforms_f32 fe_world_get_velocities fe_world_set_velocities
 fe_world_add_forces fe_world_hash fe_world_draw_lines fe_world_draw_triangles fe_world_draw_points
 fe_world_draw_instances fe_version fe_last_error fe_result_name`.split(/\s+/);
+const recordings = [...header.matchAll(/\b(fe_(?:recorder|player|divergence)_\w+)\(/g)];
 export const LEFT_OUT = {
+    ...Object.fromEntries(recordings.map(([, name]) => [name, 'recordings are for hosts in C'])),
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',
