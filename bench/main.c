@@ -19,6 +19,8 @@ static const command commands[] = {
     {"queries", bench_command_queries, "rays, sweeps, overlaps, and building meshes and hulls, beside Bullet's"},
     {"draw", bench_command_draw, "time of the calls that draw: draw [BODIES]"},
     {"history", bench_command_history, "keeping frames and going back to them, beside a plain copy of as many bytes"},
+    {"record", bench_command_record, "what recording costs, and how fast it plays: record [BODIES [SLEEPING]]"},
+    {"replay", bench_command_replay, "every case, recorded and played again: replay [--quick] [CASE...]"},
     {"scenes", bench_command_scenes, "every case in Feather, judged"},
     {"run", bench_command_run, "one case: run NAME, with every measure"},
     {"compare", bench_command_compare,

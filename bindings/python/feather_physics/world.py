@@ -16,7 +16,7 @@ from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
 from .words import body_type, draw_bits, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
-SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon")
+SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm")
 EVENTS = ("pair", "body", "hit", "joint")
 DRAWN = ("lines", "triangles", "points", "instances")
 ZERO = (0.0, 0.0, 0.0)
