@@ -14,8 +14,11 @@ fe_asset_get_key fe_heightfield_create fe_hull_create fe_mesh_create fe_compound
 fe_heightfield_get_heights fe_mesh_set_materials fe_world_raycast_many fe_world_sweep_many fe_world_get_moved
 fe_world_get_transforms fe_world_set_transforms fe_world_get_transforms_f32 fe_world_get_velocities fe_world_set_velocities
 fe_world_add_forces fe_world_hash fe_world_draw_lines fe_world_draw_triangles fe_world_draw_points
-fe_world_draw_instances fe_history_create fe_history_destroy fe_history_keep fe_history_restore fe_history_get_frames fe_version fe_last_error fe_result_name`.split(/\s+/);
+fe_world_draw_instances fe_history_create fe_history_destroy fe_history_keep fe_history_restore fe_history_get_frames
+fe_version fe_last_error fe_result_name`.split(/\s+/);
+const recordings = [...header.matchAll(/\b(fe_(?:recorder|player|divergence)_\w+)\(/g)];
 export const LEFT_OUT = {
+    ...Object.fromEntries(recordings.map(([, name]) => [name, 'recordings are for hosts in C'])),
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',

@@ -1,5 +1,6 @@
 // heightfield.c - the API of heightfields: assets of a store. From any thread.
 #include "api/store.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/asset_users.h"
 
@@ -115,6 +116,7 @@ static fe_result set_heights(const char *function, fe_store *store, fe_asset ass
         return fe__fail(function, entered, "a world that uses asset 0x%llx %s; nothing was changed", asset, why);
     }
     fe__heightfield_edit(store, index, part, heights);
+    fe__record_heights(store, index, part->row, part->column, part->rows, part->columns, heights);
     fe__assets_leave_worlds(store, &users);
     return FE_OK;
 }

@@ -1,6 +1,6 @@
 // history.c - the API of histories: frames of a world to go back to.
 #include "state/history.h"
-#include "api/check.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 
 #include <string.h>
@@ -79,6 +79,7 @@ fe_result fe_history_restore(fe_history *history, int64_t frame)
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__history_restore(history, frame);
     fe__fp_leave(fp);
+    if (result == FE_OK && world->recorder) fe__record_jump(world->recorder);
     return report_return(function, result, frame);
 }
 

@@ -1,5 +1,6 @@
 // mesh.c - the API of meshes: assets of a store. From any thread.
 #include "api/store.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "store/mesh_asset.h"
 #include "world/asset_users.h"
@@ -249,6 +250,7 @@ static fe_result set_materials(const char *function, fe_store *store, fe_asset m
         return fe__fail(function, entered, "a world that uses mesh 0x%llx %s; nothing was changed", mesh, why);
     }
     fe__mesh_edit_materials(store, index, materials, stride);
+    fe__record_materials(store, index);
     fe__assets_leave_worlds(store, &users);
     return FE_OK;
 }

@@ -11,11 +11,12 @@
     extern const fe__forest_kernels fe__forest_kernels_##name;   \
     extern const fe__body_kernels fe__body_kernels_##name;       \
     extern fe__recycle_kernel fe__recycle_##name;                \
-    extern fe__due_kernel fe__keep_due_##name;
+    extern fe__due_kernel fe__keep_due_##name;                   \
+    extern fe__course_kernel fe__meet_course_##name;
 #define TABLE(simd, lanes, name, ...)                                                                                 \
     {                                                                                                                 \
         simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, {__VA_ARGS__}, &fe__body_kernels_##name, \
-            fe__recycle_##name, fe__keep_due_##name, THIN(contact_kernels)                                            \
+            fe__recycle_##name, fe__keep_due_##name, fe__meet_course_##name, THIN(contact_kernels)                    \
     }
 
 #ifndef FE_WITHOUT_PLAIN

@@ -67,8 +67,7 @@ fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset)
     return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
 }
 
-// Has a shape of the world the asset, under whatever scale?
-static int32_t is_used(const fe_world *world, int32_t asset)
+int32_t fe__uses_asset(const fe_world *world, int32_t asset)
 {
     const fe_store *store = world->store;
     if (!fe__store_asset(store, asset)->scaled) return fe__find_asset_use(world, asset) != NULL;
@@ -160,7 +159,7 @@ static fe_result enter(fe_world *world)
 static int32_t uses_any(const fe_world *world, const fe__assets_entered *e)
 {
     int32_t used = 0;
-    for (int32_t i = 0; i < e->count && !used && world != e->but; ++i) used = is_used(world, e->assets[i]);
+    for (int32_t i = 0; i < e->count && !used && world != e->but; ++i) used = fe__uses_asset(world, e->assets[i]);
     return used;
 }
 

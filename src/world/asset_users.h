@@ -20,6 +20,8 @@ void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user o
 void fe__world_release_assets(fe_world *world); // all of them, under the lock
 // The use of an asset, under the store's lock. NULL: no shape has it
 fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset);
+// Has a shape of the world the asset, under whatever scale?
+int32_t fe__uses_asset(const fe_world *world, int32_t asset);
 
 // ---- edits, under the store's lock ----------------------------------------------------------------------------------
 typedef struct fe__assets_entered {

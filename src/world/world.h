@@ -41,6 +41,7 @@ struct fe_world {
 
     fe_pair_filter pair_filter; // or NULL
     void *pair_filter_user;
+    fe_recorder *recorder; // who notes each call that changes the world, or NULL
 
     // settings
     fe_vec3 gravity;

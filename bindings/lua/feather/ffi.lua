@@ -124,9 +124,13 @@ local ABSENT = {
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
 }
+-- for hosts in C
+local function is_of_recordings(name) return name:find("^fe_recorder") or name:find("^fe_player") or name:find("^fe_div") end
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do
-    if not ABSENT[name] and result ~= "void" then core[name:sub(4)] = write(env, result, name, parameters) end
+    if not ABSENT[name] and not is_of_recordings(name) and result ~= "void" then
+        core[name:sub(4)] = write(env, result, name, parameters)
+    end
 end
 
 -- Structs with their defaults. Those of hosts in C, and those that are tables here, are left out.
@@ -135,7 +139,7 @@ local NO_RECORD = {
     fe_mesh_def = true,
 }
 for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
-    if not NO_RECORD[name] then
+    if not NO_RECORD[name] and not is_of_recordings(name) then
         local kind, init, sized = ffi.typeof(name), C[name .. "_init"], parameters:find("struct_size")
         core[name:sub(4)] = function()
             local made = kind()
