@@ -141,6 +141,9 @@ typedef struct fe__fields {
 #define FE_FIELDS_fe_snapshot_info(FIELD)                                                             \
     FIELD(struct_size) FIELD(library) FIELD(foreign) FIELD(number) FIELD(step) FIELD(bodies) FIELD(shapes) \
         FIELD(joints) FIELD(assets) FIELD(inside) FIELD(filter)
+#define FE_FIELDS_fe_difference(FIELD) \
+    FIELD(struct_size)                 \
+    FIELD(index) FIELD(element) FIELD(reserved) FIELD(handle) FIELD(other) FIELD(kind) FIELD(field) FIELD(a) FIELD(b)
 #define FE_FIELDS_fe_draw_options(FIELD) \
     FIELD(struct_size)                   \
     FIELD(parts) FIELD(origin) FIELD(lower) FIELD(upper) FIELD(only) FIELD(scale) FIELD(segments)
@@ -153,7 +156,7 @@ typedef struct fe__fields {
     STRUCT(fe_geometry) STRUCT(fe_shape_def) STRUCT(fe_joint_def) STRUCT(fe_distance_joint_def)              \
     STRUCT(fe_ball_joint_def) STRUCT(fe_hinge_joint_def) STRUCT(fe_fixed_joint_def)                          \
     STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter) STRUCT(fe_draw_options) \
-    STRUCT(fe_save_options) STRUCT(fe_restore_options) STRUCT(fe_snapshot_info)
+    STRUCT(fe_save_options) STRUCT(fe_restore_options) STRUCT(fe_snapshot_info) STRUCT(fe_difference)
 
 #define FE_DECLARE_FIELDS(type) extern const fe__fields fe__fields_of_##type;
 FE_EACH_STRUCT(FE_DECLARE_FIELDS)

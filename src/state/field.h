@@ -26,7 +26,8 @@ typedef enum fe__field_kind {
 } fe__field_kind;
 
 typedef enum fe__range_number {
-    FE__RANGE_ANY, // all bits mean something
+    FE__RANGE_ANY,     // all bits mean something
+    FE__RANGE_GROWING, // those of a counter or a bound, which tells of what was, not of what is
     FE__RANGE_FINITE,
     FE__RANGE_POSITIVE, // or 0
     FE__RANGE_UNIT,     // of a unit vector, but for its rounding

@@ -65,7 +65,10 @@ typedef struct fe__table {
     const void *(*at)(const fe_world *world, int32_t place, void *room);
 } fe__table;
 
-enum { FE__ROOM = 320 }; // bytes, for the largest record that is made
+enum {
+    FE__ROOM = 320,          // bytes, for the largest record that is made
+    FE__LARGEST_RECORD = 640 // bytes, of any table
+};
 extern const fe__table fe__tables[FE__TABLES];
 
 // ---- records that are made for a row -------------------------------------------------------------------------------

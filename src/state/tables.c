@@ -11,6 +11,7 @@
 
 const fe__range fe__ranges[FE__RANGES] = {
     [FE__RANGE_ANY] = {0.0, 0.0},
+    [FE__RANGE_GROWING] = {0.0, 0.0},
     [FE__RANGE_FINITE] = {-(double)FLT_MAX, (double)FLT_MAX},
     [FE__RANGE_POSITIVE] = {0.0, (double)FLT_MAX},
     [FE__RANGE_UNIT] = {-1.001, 1.001},
@@ -35,10 +36,10 @@ const fe__range fe__ranges[FE__RANGES] = {
 // clang-format off
 // ---- the world -----------------------------------------------------------------------------------------------------
 #define WORLD(T, S, R, P) \
-    S(T, user_data, U64, ANY) S(T, next_serial, U64, ANY) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
-    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) S(T, row_kinds, U32, ANY) \
+    S(T, user_data, U64, ANY) S(T, next_serial, U64, GROWING) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
+    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) S(T, row_kinds, U32, GROWING) \
     S(T, pair_limit, I32, INDEX) S(T, pair_colours, I32, INDEX) S(T, static_colours, I32, INDEX) \
-    S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, ANY) \
+    S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, GROWING) \
     S(T, most_joints, I32, INDEX) S(T, ignore_limit, I32, INDEX) S(T, encounter_limit, I32, INDEX) \
     S(T, free_slots, I32, SLOT_STATE) P(4) \
     R(T, tuning.struct_size) S(T, tuning.contact_hertz, F32, FINITE) S(T, tuning.contact_damping_ratio, F32, FINITE) \
@@ -194,8 +195,9 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, box, F32, ANY) S(T, child, I32, ANY) S(T, parent, I32, LINK) S(T, lane, I32, INDEX) R(T, spare)
 // clang-format on
 
-#define DEFINE(name, record, list)                            \
-    static const fe__field name[] = FE__FIELDS(record, list); \
+#define DEFINE(name, record, list)                                                         \
+    static const fe__field name[] = FE__FIELDS(record, list);                              \
+    _Static_assert(sizeof(record) <= FE__LARGEST_RECORD, "there is room for each record"); \
     FE__IS_WHOLE(record, list)
 
 DEFINE(world_fields, fe__world_row, WORLD);

@@ -110,6 +110,7 @@ local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
+    fe_snapshot_compare = true,
 }
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do

@@ -23,4 +23,5 @@ return {
     loadWorld = snapshots.load,
     checkSnapshot = snapshots.check,
     getSnapshotAssets = snapshots.get_assets,
+    compareSnapshots = snapshots.compare,
 }

@@ -43,6 +43,7 @@ from .records import (
     ContactPoint,
     Counters,
     Cylinder,
+    Difference,
     Energy,
     Filter,
     FilterPair,
@@ -72,7 +73,7 @@ from .records import (
     Tuning,
     Vector,
 )
-from .snapshot import snapshot_assets, snapshot_info
+from .snapshot import compare_snapshots, snapshot_assets, snapshot_info
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .world import Pool, World
 
@@ -94,6 +95,7 @@ __all__ = [
     "Cylinder",
     "DataError",
     "DegenerateError",
+    "Difference",
     "DivergedError",
     "Energy",
     "FeatherError",
@@ -144,6 +146,7 @@ __all__ = [
     "VersionError",
     "World",
     "WrongKindError",
+    "compare_snapshots",
     "snapshot_assets",
     "snapshot_info",
 ]
