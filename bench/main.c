@@ -18,6 +18,7 @@ static const command commands[] = {
     {"speed", bench_command_speed, "time per step of all engines, interleaved"},
     {"queries", bench_command_queries, "rays, sweeps, overlaps, and building meshes and hulls, beside Bullet's"},
     {"draw", bench_command_draw, "time of the calls that draw: draw [BODIES]"},
+    {"state", bench_command_state, "time and size of snapshots, in a pile and at rest"},
     {"scenes", bench_command_scenes, "every case in Feather, judged"},
     {"run", bench_command_run, "one case: run NAME, with every measure"},
     {"compare", bench_command_compare,

@@ -6,8 +6,8 @@
 
 enum { FE__SENTENCE = 200 };
 
-typedef struct fe__view { // a table
-    const unsigned char *columns;
+typedef struct fe__view {         // a table
+    const unsigned char *content; // its rows
     int32_t rows;
     int32_t section; // offset of its header in the bytes
 } fe__view;
