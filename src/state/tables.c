@@ -38,7 +38,8 @@ const fe__range fe__ranges[FE__RANGES] = {
 // ---- the world -----------------------------------------------------------------------------------------------------
 #define WORLD(T, S, R, P) \
     S(T, user_data, U64, ANY) S(T, next_serial, U64, GROWING) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
-    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) S(T, row_kinds, U32, GROWING) \
+    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) \
+    S(T, row_kinds, U32, GROWING) \
     S(T, pair_limit, I32, INDEX) S(T, pair_colours, I32, INDEX) S(T, static_colours, I32, INDEX) \
     S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, GROWING) \
     S(T, most_joints, I32, INDEX) S(T, ignore_limit, I32, INDEX) S(T, encounter_limit, I32, INDEX) \
