@@ -53,7 +53,7 @@ static fe_world *new_world(int32_t sleeps)
 static fe_world *make_pile(void)
 {
     enum { BODIES = 1000, COLUMNS = 8, LAYER = COLUMNS * COLUMNS, STEPS = 400 };
-    const double pitch = 1.1, jitter = 0.2, layer_height = 1.2; // m
+    const double pitch = 1.05, jitter = 0.1, layer_height = 1.2; // m
     fe_world *world = new_world(0);
     uint64_t state = 0x9e3779b97f4a7c15u;
     for (int32_t i = 0; i < BODIES && world; ++i) {

@@ -324,6 +324,8 @@ static int32_t compare_rows(const comparison *c, fe__table_number table, int32_t
     int32_t in_b = row_b >= 0 && row_b < fe__rows_of(c->b.snapshot, table);
     if (in_a != in_b) return tell_missing(c, fe__tables[table].name, in_a);
     if (!in_a) return 0;
+    const unsigned char *bytes_a = fe__row_at(c->a.snapshot, table, row_a);
+    if (memcmp(bytes_a, fe__row_at(c->b.snapshot, table, row_b), (size_t)fe__tables[table].row_size) == 0) return 0;
     fe__take_row(c->a.snapshot, table, row_a, a);
     fe__take_row(c->b.snapshot, table, row_b, b);
     return compare_fields(fe__tables + table, c->pass, a, b, c->out);
@@ -361,20 +363,20 @@ static const kind_tables kinds[KINDS] = {
                6},
 };
 
-static void name_entry(const comparison *c, const kind_tables *kind, const entry *e)
+static int32_t name_entry(const comparison *c, const kind_tables *kind, const entry *e)
 {
-    *c->out = (fe_difference){.handle = e->handle[0], .other = e->handle[1]};
+    c->out->handle = e->handle[0], c->out->other = e->handle[1];
     snprintf(c->out->kind, sizeof c->out->kind, "%s", kind->name);
+    return 1;
 }
 
 static int32_t compare_entries(const comparison *c, const kind_tables *kind, const entry *a, const entry *b)
 {
-    name_entry(c, kind, a);
     for (int32_t i = 0; i < kind->count; ++i) {
         int32_t table = kind->tables[i].table, which = kind->tables[i].which;
         if (table == OF_TYPE && a->type != b->type) continue; // told in the first pass
         if (table == OF_TYPE) table = (int32_t)settings_of(a->type);
-        if (compare_rows(c, (fe__table_number)table, a->rows[which], b->rows[which])) return 1;
+        if (compare_rows(c, (fe__table_number)table, a->rows[which], b->rows[which])) return name_entry(c, kind, a);
     }
     return 0;
 }
@@ -393,8 +395,8 @@ static int32_t compare_kind(const comparison *c, int32_t kind)
         const entry *a = c->a.entries[kind] + i, *b = c->b.entries[kind] + j;
         int32_t order = i == count_a ? 1 : j == count_b ? -1 : order_of(a, b);
         if (order) {
-            name_entry(c, kinds + kind, order < 0 ? a : b);
-            return tell_missing(c, "there", order < 0);
+            tell_missing(c, "there", order < 0);
+            return name_entry(c, kinds + kind, order < 0 ? a : b);
         }
         if (compare_entries(c, kinds + kind, a, b)) return 1;
         ++i, ++j;
@@ -408,10 +410,12 @@ static int32_t compare_list(const comparison *c, fe__table_number table)
 {
     int32_t count_a = fe__rows_of(c->a.snapshot, table), count_b = fe__rows_of(c->b.snapshot, table);
     for (int32_t i = 0; i < count_a || i < count_b; ++i) {
-        *c->out = (fe_difference){.index = i};
+        int32_t differs =
+            i >= count_a || i >= count_b ? tell_missing(c, "there", i < count_a) : compare_rows(c, table, i, i);
+        if (!differs) continue;
+        c->out->index = i;
         snprintf(c->out->kind, sizeof c->out->kind, "%s", fe__tables[table].name);
-        if (i >= count_a || i >= count_b) return tell_missing(c, "there", i < count_a);
-        if (compare_rows(c, table, i, i)) return 1;
+        return 1;
     }
     return 0;
 }
@@ -438,6 +442,7 @@ static int32_t compare_pass(comparison *c, int32_t pass)
 int32_t fe__snapshot_compare(const fe__snapshot *a, const fe__snapshot *b, fe__memory *memory, fe_difference *out)
 {
     comparison c = {.out = out};
+    *out = (fe_difference){.index = 0};
     int32_t opened = open_side(&c.a, a, memory) & open_side(&c.b, b, memory);
     int32_t found = opened ? compare_pass(&c, 0) || compare_pass(&c, 1) : FE_ERROR_MEMORY;
     close_side(&c.a);

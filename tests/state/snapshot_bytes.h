@@ -37,10 +37,14 @@ static inline void put(unsigned char *at, uint64_t x)
 
 static inline uint64_t sum_of(const unsigned char *at, uint64_t size)
 {
-    fe__hash lanes[4], sum = fe__hash_begin();
-    for (int k = 0; k < 4; ++k) lanes[k] = fe__hash_begin();
-    for (uint64_t i = 0; i < size / 8; ++i) fe__hash_u64(lanes + i % 4, take(at + 8 * i, 8));
-    for (int k = 0; k < 4; ++k) fe__hash_u64(&sum, fe__hash_end(lanes + k));
+    uint64_t lanes[8] = {0};
+    for (uint64_t i = 0; i < size / 8; ++i) {
+        lanes[i % 8] = (lanes[i % 8] ^ take(at + 8 * i, 8)) * UINT64_C(0x9E3779B97F4A7C15);
+        lanes[i % 8] ^= lanes[i % 8] >> 32;
+    }
+    fe__hash sum = fe__hash_begin();
+    for (int k = 0; k < 8; ++k) fe__hash_u64(&sum, lanes[k]);
+    fe__hash_u64(&sum, size);
     return fe__hash_end(&sum);
 }
 
