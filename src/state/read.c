@@ -51,7 +51,7 @@ static int32_t read_header(fe__snapshot *s)
     return 1;
 }
 
-// ---- columns -------------------------------------------------------------------------------------------------------
+// ---- numbers -------------------------------------------------------------------------------------------------------
 static double number_at(const fe__field *field, const unsigned char *at)
 {
     switch ((fe__field_kind)field->kind) {

@@ -23,10 +23,15 @@ static inline uint64_t step(uint64_t state, uint64_t word)
 
 uint64_t fe__sum_of(const unsigned char *bytes, int64_t size)
 {
-    uint64_t lanes[LANES] = {0};
+    uint64_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0; // in registers, as an array would not be
     const unsigned char *at = bytes, *end = bytes + size;
-    for (; end - at >= LANES * WORD; at += LANES * WORD)
-        for (int k = 0; k < LANES; ++k) lanes[k] = step(lanes[k], word_at(at + WORD * k));
+    for (; end - at >= LANES * WORD; at += LANES * WORD) {
+        a = step(a, word_at(at)), b = step(b, word_at(at + WORD));
+        c = step(c, word_at(at + 2 * WORD)), d = step(d, word_at(at + 3 * WORD));
+        e = step(e, word_at(at + 4 * WORD)), f = step(f, word_at(at + 5 * WORD));
+        g = step(g, word_at(at + 6 * WORD)), h = step(h, word_at(at + 7 * WORD));
+    }
+    uint64_t lanes[LANES] = {a, b, c, d, e, f, g, h};
     for (int k = 0; at < end; ++k, at += WORD) lanes[k] = step(lanes[k], word_at(at));
     fe__hash sum = fe__hash_begin();
     for (int k = 0; k < LANES; ++k) fe__hash_u64(&sum, lanes[k]);
