@@ -111,6 +111,21 @@ DEFINE(fe_snapshot_info)
 #define THIS fe_difference
 DEFINE(fe_difference)
 #undef THIS
+#define THIS fe_history_def
+DEFINE(fe_history_def)
+#undef THIS
 #define THIS fe_draw_options
 DEFINE(fe_draw_options)
+#undef THIS
+#define THIS fe_recorder_def
+DEFINE(fe_recorder_def)
+#undef THIS
+#define THIS fe_player_def
+DEFINE(fe_player_def)
+#undef THIS
+#define THIS fe_player_info
+DEFINE(fe_player_info)
+#undef THIS
+#define THIS fe_divergence
+DEFINE(fe_divergence)
 #undef THIS

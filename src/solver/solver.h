@@ -9,6 +9,7 @@
 // The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
 #ifndef FE_SOLVER_SOLVER_H
 #define FE_SOLVER_SOLVER_H
+#include "collision/manifold/terrain_course.h"
 #include "core/array_sort.h"
 #include "core/math.h"
 #include "core/memory.h"
@@ -389,6 +390,7 @@ typedef struct fe__kernels {
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
     fe__due_kernel *keep_due;
+    fe__course_kernel *meet_course;
     // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
     const fe__contact_kernels *thin;
 } fe__kernels;

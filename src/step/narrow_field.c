@@ -7,6 +7,7 @@
 #include "step/narrow_field.h"
 
 #include "collision/manifold/terrain.h"
+#include "collision/manifold/terrain_course.h"
 #include "step/narrow.h"
 #include "step/surroundings.h"
 #include "world/pair_mix.h"
@@ -31,6 +32,7 @@ typedef struct pair_view {
     int32_t known_count;
     const fe__mesh_near *near; // triangles of all looks, or NULL
     float dt, speed_limit;     // s; m/s that no point of either body exceeds
+    int32_t is_last;           // the look is at the end of the step
 } pair_view;
 
 // ---- one look ------------------------------------------------------------------------------------------------------
@@ -41,7 +43,10 @@ static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, co
     ground.near = p->near;
     return (fe__terrain){ground,
                          fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-                         around, p->known, p->known_count};
+                         around,
+                         p->known,
+                         p->known_count,
+                         p->is_last};
 }
 
 static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
@@ -49,11 +54,41 @@ static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_oth
     return fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
 }
 
+static fe_vec3 in_field(const pair_view *p, fe_dvec3 point)
+{
+    return fe__narrow(fe__drotate_back(p->field->pose.rotation, fe__dsub(point, p->other->pose.position)));
+}
+
+// The way of the other past a field that stands still. 0: there is none that says much
+static int32_t find_course(const pair_view *p, float fall, fe__course *course)
+{
+    const fe__pose *field = &p->field->pose;
+    const fe__body *body = p->world->bodies + p->other->body;
+    float angle = fe__length(fe__quad_vector(body->spin)) * p->dt;
+    if (p->world->bodies[p->field->body].awake_index >= 0 || !(angle < FE__MOST_COURSE_ANGLE)) return 0;
+    fe_dvec3 centre;
+    fe_quat rotation;
+    fe__advance(p->world, body, p->dt, &centre, &rotation);
+    fe__pose end = fe__shape_pose_at(body, p->other, centre, rotation);
+    *course = (fe__course){{rotation_of(field, &p->other->pose), rotation_of(field, &end)},
+                           in_field(p, end.position),
+                           in_field(p, fe__centre_of(body)),
+                           body->reach,
+                           angle,
+                           fall};
+    return 1;
+}
+
 // Those that a look may ask for, which begins where the bodies are and ends no more than `reach` from there
-static const fe__mesh_near *find_near(const pair_view *p, float margin, float reach, fe__mesh_near *room)
+static const fe__mesh_near *find_near(const pair_view *p, float margin, float reach, float fall, fe__mesh_near *room)
 {
     const fe__pose *field = &p->field->pose, *other = &p->other->pose;
     fe__terrain terrain = terrain_of(p, field, other, NULL);
+    fe__course course;
+    if (terrain.ground.mesh && find_course(p, fall, &course)) {
+        fe__find_triangles_on_course(&terrain, &p->other->form, &course, margin, p->world->kernels->meet_course, room);
+        return room;
+    }
     fe__mat3 rotation = rotation_of(field, other);
     float most = reach > margin ? reach + margin : margin;
     return fe__find_near_triangles(&terrain, &p->other->form, &rotation, most, room) ? room : NULL;
@@ -76,8 +111,9 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
 
-static void look_after(const pair_view *p, float time, float margin, look *l)
+static void look_after(pair_view *p, float time, float margin, look *l)
 {
+    p->is_last = time == p->dt;
     fe__places *at = &l->at;
     fe__advance(p->world, p->a, time, &at->centre_a, &at->rotation_a);
     fe__advance(p->world, p->b, time, &at->centre_b, &at->rotation_b);
@@ -100,7 +136,7 @@ static float deepest_of(const look *l)
 // As narrow.c, but a surface has no inside that would show a crossing: from far off the pair is followed by steps in
 // which it cannot close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses
 // looked at.
-static int32_t look_ahead(const pair_view *p, const look *now, look *then)
+static int32_t look_ahead(pair_view *p, const look *now, look *then)
 {
     enum { MOST_LOOKS = 16 };
     float speculative = p->world->tuning.speculative_distance, gap = deepest_of(now), time = 0.0f;
@@ -263,7 +299,7 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
     fe__mesh_near room;
-    view.near = find_near(&view, margin, reach, &room);
+    view.near = find_near(&view, margin, reach, step->fall, &room);
     look now, then;
     float gap; // without patches
     now.at =

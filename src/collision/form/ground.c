@@ -116,8 +116,7 @@ static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, c
     fe__bounds box = {{p.x - near, p.y - near, p.z - near}, {p.x + near, p.y + near, p.z + near}};
     fe__ground_walk walk;
     fe__ground_begin(&walk, s, &box, p);
-    fe__form unused;
-    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe_dvec3 v[3];
         int32_t is_higher = 0, may_rise = 0;
         fe__ground_corners(s, i, v);

@@ -58,6 +58,12 @@ static inline int32_t fe__ground_next(fe__ground_walk *walk, fe__form *triangle)
 {
     return walk->is_mesh ? fe__mesh_walk_next(&walk->mesh, triangle) : fe__next_triangle(&walk->field, triangle);
 }
+// Its index alone
+static inline int32_t fe__ground_next_index(fe__ground_walk *walk)
+{
+    fe__form unused;
+    return walk->is_mesh ? fe__mesh_walk_next_slot(&walk->mesh) : fe__next_triangle(&walk->field, &unused);
+}
 
 // Does the surface go on at p and rise along the unit m from there? A triangle nearer to p than `near`, m, counts.
 int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near);

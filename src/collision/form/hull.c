@@ -173,12 +173,12 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
 static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
 // A float product of a row of the rotation and a vertex is off by some roundings, 2^-24 of their sum each
-fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose)
+void fe__hull_span(const fe__hull *hull, const fe__mat3 *rotation, fe_vec3 *out_low, fe_vec3 *out_high)
 {
     const float rounding = 0x1p-19f;
     const fe__quad *px = (const fe__quad *)hull->vertices.x, *py = (const fe__quad *)hull->vertices.y,
                    *pz = (const fe__quad *)hull->vertices.z;
-    const fe__mat3 r = fe__matrix(pose->rotation);
+    const fe__mat3 r = *rotation;
     const fe__quad far = fe__quad_set(FLT_MAX);
     fe__quad low[3] = {far, far, far}, high[3] = {-far, -far, -far};
     for (int32_t i = 0; i < hull->vertex_count; i += 4, ++px, ++py, ++pz) {
@@ -188,12 +188,17 @@ fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose)
                                                                 high[k] = fe__quad_max(along[k], high[k]);
     }
     fe_vec3 most = most_of_corners(hull->low, hull->high);
-    double doubt = (double)(rounding * (most.x + most.y + most.z));
-    fe_dvec3 down = {(double)largest(-low[0]) + doubt, (double)largest(-low[1]) + doubt,
-                     (double)largest(-low[2]) + doubt},
-             up = {(double)largest(high[0]) + doubt, (double)largest(high[1]) + doubt,
-                   (double)largest(high[2]) + doubt};
-    return (fe__bounds){fe__dsub(pose->position, down), fe__dadd(pose->position, up)};
+    float doubt = rounding * (most.x + most.y + most.z);
+    *out_low = fe__vec3(-(largest(-low[0]) + doubt), -(largest(-low[1]) + doubt), -(largest(-low[2]) + doubt));
+    *out_high = fe__vec3(largest(high[0]) + doubt, largest(high[1]) + doubt, largest(high[2]) + doubt);
+}
+
+fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose)
+{
+    const fe__mat3 rotation = fe__matrix(pose->rotation);
+    fe_vec3 low, high;
+    fe__hull_span(hull, &rotation, &low, &high);
+    return (fe__bounds){fe__dadd(pose->position, fe__widen(low)), fe__dadd(pose->position, fe__widen(high))};
 }
 
 // ---- what passes by ------------------------------------------------------------------------------------------------

@@ -125,6 +125,7 @@ float fe__hull_reach(const fe__hull *hull, fe_vec3 centre);        // largest di
 fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose); // in the world, of a hull whose frame is there
 // The same in floats, wider by their roundings: for who asks whether it left another box
 fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose);
+void fe__hull_span(const fe__hull *hull, const fe__mat3 *rotation, fe_vec3 *low, fe_vec3 *high); // about its origin
 // A box that moves and does not turn, with a ball around each of its points
 typedef struct fe__hull_passer {
     fe_dvec3 origin, translation; // of its middle, m

@@ -112,14 +112,14 @@ static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
     return (fe__quad_signs(met) & THREE) == THREE;
 }
 
-static void give_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
+void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle)
 {
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
-    const double *s = w->mesh->scale;
+    const double *s = mesh->scale;
     for (int32_t k = 0; k < 3; ++k) {
-        const float *p = fe__mesh_vertex(w->mesh, slot, fe__mesh_own_corner(w->mesh, k));
+        const float *p = fe__mesh_vertex(mesh, slot, fe__mesh_own_corner(mesh, k));
         fe_dvec3 corner = {s[0] * (double)p[0], s[1] * (double)p[1], s[2] * (double)p[2]};
-        triangle->vertex[k] = fe__narrow(fe__dsub(corner, w->origin));
+        triangle->vertex[k] = fe__narrow(fe__dsub(corner, origin));
     }
 }
 
@@ -152,11 +152,16 @@ static int32_t next_of_near(fe__mesh_walk *w)
     return -1;
 }
 
-int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w)
 {
     fe__mesh_span span;
-    int32_t slot = w->near ? next_of_near(w) : next_in_tree(w, &span);
-    if (slot >= 0) give_triangle(w, slot, triangle);
+    return w->near ? next_of_near(w) : next_in_tree(w, &span);
+}
+
+int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+{
+    int32_t slot = fe__mesh_walk_next_slot(w);
+    if (slot >= 0) fe__mesh_triangle(w->mesh, slot, w->origin, triangle);
     return slot;
 }
 
@@ -164,7 +169,7 @@ void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_ne
 {
     fe__mesh_walk walk;
     fe__mesh_span span;
-    near->box = *box, near->count = 0;
+    near->box = *box, near->count = 0, near->is_all = 0, near->among = near->among_last = 0;
     fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
     for (int32_t slot; near->count >= 0 && (slot = next_in_tree(&walk, &span)) >= 0;) {
         if (near->count < FE__MESH_NEAR) {

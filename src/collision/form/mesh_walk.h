@@ -18,6 +18,11 @@ typedef struct fe__mesh_span {
 typedef struct fe__mesh_near {
     fe__bounds box; // in the mesh's frame
     int32_t count;  // of triangles; -1: there are more
+    // of a form's way (terrain_course.h), else 0: are all triangles here that it may touch, and a bit for each of them:
+    // on the way, and at its end
+    int32_t is_all;
+    uint64_t among, among_last;
+    float margin; // m, that it comes nearer to
     int32_t slots[FE__MESH_NEAR];
     fe__mesh_span spans[FE__MESH_NEAR];
 } fe__mesh_near;
@@ -36,9 +41,12 @@ typedef struct fe__mesh_walk {
 // `near` may be NULL, and serves where the box is inside of its own.
 void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__mesh_near *near, const fe__bounds *box,
                          fe_dvec3 origin);
+// Its vertices relative to the origin
+void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle);
 void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near);
 // Slot of the next triangle whose bounds meet the box or, of a scaled mesh, all but meet it, its vertices relative to
 // the walk's origin; -1: no more.
 int32_t fe__mesh_walk_next(fe__mesh_walk *walk, fe__form *triangle);
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *walk); // the slot alone
 
 #endif

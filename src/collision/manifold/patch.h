@@ -46,6 +46,7 @@ typedef struct fe__terrain {
     // have such a normal
     const fe_vec3 *known;
     int32_t known_count;
+    int32_t is_last; // the look is one at the end of B's way (ground.near)
 } fe__terrain;
 
 #endif

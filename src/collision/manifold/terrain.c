@@ -73,32 +73,63 @@ static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
     return x * x + y * y + z * z > reach * reach;
 }
 
+typedef struct mover {
+    const fe__form *b;
+    const fe__mat3 *rotation;
+    fe_vec3 ends[2], core; // of what is round: of its core, and that core's box
+    int32_t is_box, is_curved, culls;
+} mover;
+
+static mover mover_of(const fe__form *b, const fe__mat3 *rotation)
+{
+    fe_vec3 axis = fe__scale(fe__form_is_hull(b) ? 0.0f : b->half_height, rotation->y);
+    return (mover){b,
+                   rotation,
+                   {fe__neg(axis), axis},
+                   {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)},
+                   fe__form_has_flat_faces(b),
+                   fe__form_is_curved(b) || fe__form_is_hull(b),
+                   0};
+}
+
+static void touch_triangle(fe__gathering *g, const mover *m, const fe__form *triangle, int32_t index)
+{
+    const fe__terrain *t = g->terrain;
+    const float rounding = 1.0001f;
+    if (m->culls && is_beyond(triangle->vertex, m->core, rounding * (m->b->radius + g->margin))) return;
+    fe__tile tile = fe__tile_of(t, triangle, index);
+    if (t->known_count && (t->ground.mesh || m->is_box || m->is_curved) && fe__tile_is_known(t, &tile)) return;
+    if (m->is_box)
+        fe__tile_touch_box(g, &tile, m->b, m->rotation);
+    else if (m->is_curved)
+        fe__tile_touch_curved(g, &tile, m->b, m->rotation);
+    else
+        fe__tile_touch_round(g, &tile, m->ends, m->b->radius);
+}
+
 static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rotation)
 {
     const fe__terrain *t = g->terrain;
-    fe_vec3 axis = fe__scale(fe__form_is_hull(b) ? 0.0f : b->half_height, rotation->y), ends[2] = {fe__neg(axis), axis};
+    const fe__mesh_near *near = t->ground.near;
+    mover m = mover_of(b, rotation);
+    fe__form triangle;
+    if (near && near->is_all) {
+        m.culls = !(m.is_box || m.is_curved);
+        for (uint64_t left = t->is_last ? near->among_last : near->among; left; left &= left - 1) {
+            int32_t slot = near->slots[__builtin_ctzll(left)];
+            fe__mesh_triangle(t->ground.mesh, slot, t->origin, &triangle);
+            touch_triangle(g, &m, &triangle, slot);
+        }
+        return;
+    }
     fe__bounds box = bounds_around(t, b, rotation, g->margin);
     double depth = sunk(t, b);
     box.high.y += depth;
     if (depth > 0.0) g->felt = FLT_MAX;
-    const float rounding = 1.0001f;
-    fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
-    int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b) || fe__form_is_hull(b),
-            has_flat_parts = is_box || is_curved, culls = !has_flat_parts && !(depth > 0.0);
+    m.culls = !(m.is_box || m.is_curved) && !(depth > 0.0);
     fe__ground_walk walk;
     fe__ground_begin(&walk, &t->ground, &box, t->origin);
-    fe__form triangle;
-    for (int32_t i; (i = fe__ground_next(&walk, &triangle)) >= 0;) {
-        if (culls && is_beyond(triangle.vertex, core, rounding * (b->radius + g->margin))) continue;
-        fe__tile tile = fe__tile_of(t, &triangle, i);
-        if (t->known_count && has_flat_parts && fe__tile_is_known(t, &tile)) continue;
-        if (is_box)
-            fe__tile_touch_box(g, &tile, b, rotation);
-        else if (is_curved)
-            fe__tile_touch_curved(g, &tile, b, rotation);
-        else
-            fe__tile_touch_round(g, &tile, ends, b->radius);
-    }
+    for (int32_t i; (i = fe__ground_next(&walk, &triangle)) >= 0;) touch_triangle(g, &m, &triangle, i);
 }
 
 static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin)
@@ -108,7 +139,9 @@ static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 
     fe__ground_walk walk;
     fe__ground_begin(&walk, &t->ground, &box, t->origin);
     fe__form triangle;
-    return fe__ground_next(&walk, &triangle) < 0 ? wide : margin;
+    if (fe__ground_next(&walk, &triangle) < 0) return wide;
+    // what does not come nearer than it may be left out
+    return t->ground.near && t->ground.near->is_all ? fe__minf(margin, t->ground.near->margin) : margin;
 }
 
 static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
@@ -158,7 +191,8 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     centred.offset = fe__sub(b->offset, centre);
     fe__surroundings around; // their numbers say how many are written
     move_surroundings(t->around, away, &around);
-    fe__terrain there = {t->ground, fe__dadd(t->origin, fe__widen(away)), &around, t->known, t->known_count};
+    fe__terrain there = *t;
+    there.origin = fe__dadd(t->origin, fe__widen(away)), there.around = &around;
     int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < patches[i].count; ++k)

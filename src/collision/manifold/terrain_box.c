@@ -90,13 +90,18 @@ static void prefer_face(contest *c)
 }
 
 // ---- faces ---------------------------------------------------------------------------------------------------------
-static void touch_face(contest *c)
-{
+typedef struct face_cut {
     fe__face face;
-    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), -1, &face);
-    fe__cut cut = {c->tile->form.vertex, face.vertex,     3,           face.count,
-                   c->tile->normal,      c->tile->normal, face.id + 1, c->tie};
-    fe__tile_cut_faces(c->g, c->tile, &cut);
+    fe__cut cut;
+    fe__cut_piece piece;
+} face_cut;
+
+static void cut_face(const contest *c, face_cut *f)
+{
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), -1, &f->face);
+    f->cut = (fe__cut){c->tile->form.vertex, f->face.vertex, 3,     f->face.count, c->tile->normal,
+                       c->tile->normal,      f->face.id + 1, c->tie};
+    fe__tile_cut_piece(c->tile, &f->cut, &f->piece);
 }
 
 static void touch_box_face(contest *c)
@@ -138,10 +143,16 @@ void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *
     if (c.best.separation > g->margin || !fe__tile_feels(g, tile, centre + r)) return;
     int32_t convex = 0;
     for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k);
-    if (convex && !find_axis(&c)) return;
-    prefer_face(&c);
-    if (c.best.kind == ON_BOX_FACE)
-        touch_box_face(&c);
-    else if (c.best.kind == ON_FACE || !touch_edges(&c))
-        touch_face(&c);
+    face_cut f;
+    cut_face(&c, &f);
+    if (convex && !fe__tile_settles(&f.cut, &f.piece, c.best.separation)) {
+        if (!find_axis(&c)) return;
+        prefer_face(&c);
+        if (c.best.kind == ON_BOX_FACE) {
+            touch_box_face(&c);
+            return;
+        }
+        if (c.best.kind == ON_EDGES && touch_edges(&c)) return;
+    }
+    fe__tile_gather_piece(g, tile, &f.cut, &f.piece);
 }

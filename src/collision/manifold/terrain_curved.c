@@ -96,19 +96,25 @@ static int32_t lies_inside(const contest *c, uint32_t convex, fe_dvec3 p, float 
     return 1;
 }
 
-static void touch_face(const contest *c, int32_t lowest_vertex)
-{
+// The face that looks at the triangle, cut by it
+typedef struct face_cut {
     fe__face face;
-    fe__tile_body_face(c->form, c->rotation, fe__neg(c->tile->normal), lowest_vertex, &face);
-    fe__cut cut = {.reference = c->tile->form.vertex,
-                   .incident = face.vertex,
-                   .reference_count = 3,
-                   .incident_count = face.count,
-                   .out = c->tile->normal,
-                   .normal = c->tile->normal,
-                   .body_id = face.id + 1,
-                   .tie = c->tie};
-    fe__tile_cut_faces(c->g, c->tile, &cut);
+    fe__cut cut;
+    fe__cut_piece piece;
+} face_cut;
+
+static void cut_face(const contest *c, int32_t lowest_vertex, face_cut *f)
+{
+    fe__tile_body_face(c->form, c->rotation, fe__neg(c->tile->normal), lowest_vertex, &f->face);
+    f->cut = (fe__cut){.reference = c->tile->form.vertex,
+                       .incident = f->face.vertex,
+                       .reference_count = 3,
+                       .incident_count = f->face.count,
+                       .out = c->tile->normal,
+                       .normal = c->tile->normal,
+                       .body_id = f->face.id + 1,
+                       .tie = c->tie};
+    fe__tile_cut_piece(c->tile, &f->cut, &f->piece);
 }
 
 // Where a hull's lowest point lies over one side, that and the triangle are all but the answer. A thin triangle, or one
@@ -199,18 +205,21 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
     contest c = {g, tile, form, rotation, fe__tie(fe__form_thickness(form))};
     fe_vec3 n = tile->normal;
     low_point low = find_lowest(&c);
-    if (low.height > g->margin || !is_felt(&c) || (fe__form_is_hull(form) && is_beside_hull(&c))) return;
+    if (low.height > g->margin || !is_felt(&c)) return;
     uint32_t convex = 0; // a bit for each side
     for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k) ? 1u << k : 0u;
-    if (lies_inside(&c, convex, low.at, low.height)) {
-        touch_face(&c, low.vertex);
-        return;
+    int32_t is_inside = lies_inside(&c, convex, low.at, low.height);
+    if (!is_inside && fe__form_is_hull(form) && is_beside_hull(&c)) return;
+    face_cut f;
+    cut_face(&c, low.vertex, &f);
+    if (!is_inside && !fe__tile_settles(&f.cut, &f.piece, low.height)) {
+        fe__touch found;
+        if (!find_nearest(&c, &low, &found)) return;
+        if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
+            fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal)) {
+            touch_side(&c, &found);
+            return;
+        }
     }
-    fe__touch found;
-    if (!find_nearest(&c, &low, &found)) return;
-    if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
-        fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal))
-        touch_side(&c, &found);
-    else
-        touch_face(&c, low.vertex);
+    fe__tile_gather_piece(g, tile, &f.cut, &f.piece);
 }

@@ -25,23 +25,43 @@ void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 
 
 static int32_t is_vertex(uint32_t id) { return (id & 0xff) < FE_CLIP_SIDE && id >> 8 < FE_CLIP_SIDE; }
 
-void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut)
+void fe__tile_cut_piece(const fe__tile *tile, const fe__cut *cut, fe__cut_piece *piece)
 {
     const fe_vec3 *reference = cut->reference;
     fe_vec3 edge = fe__sub(reference[1], reference[0]), u = fe__scale(1.0f / fe__length(edge), edge);
-    fe__mat3 frame = {u, fe__cross(cut->out, u), cut->out};
-    fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
-    project(reference, cut->reference_count, reference[0], &frame, side);
-    project(cut->incident, cut->incident_count, reference[0], &frame, vertex);
+    piece->origin = reference[0], piece->frame = (fe__mat3){u, fe__cross(cut->out, u), cut->out};
+    fe__clip_vertex side[FE_FACE_VERTICES];
+    project(reference, cut->reference_count, reference[0], &piece->frame, side);
+    project(cut->incident, cut->incident_count, reference[0], &piece->frame, piece->vertex);
     float slack = 0.1f * cut->tie + 1e-6f * tile->size;
-    int32_t count = fe__clip_polygon(side, cut->reference_count, vertex, cut->incident_count, slack);
-    for (int32_t i = 0; i < count; ++i) {
-        float height = vertex[i].height;
-        if (height > g->margin || !fe__tile_feels(g, tile, height)) continue;
-        fe_vec3 p = fe__add_scaled(reference[0], vertex[i].u, frame.x);
-        p = fe__add_scaled(fe__add_scaled(p, vertex[i].v, frame.y), 0.5f * height, frame.z);
-        uint32_t feature = cut->body_id << 16 | vertex[i].id;
-        int32_t is_corner = cut->body_id && is_vertex(vertex[i].id);
-        fe__gather(g, tile, cut->normal, p, height, is_corner ? feature : fe__tile_id(tile, feature));
+    piece->count = fe__clip_polygon(side, cut->reference_count, piece->vertex, cut->incident_count, slack);
+}
+
+void fe__tile_gather_piece(fe__gathering *g, const fe__tile *tile, const fe__cut *cut, const fe__cut_piece *piece)
+{
+    const fe__mat3 *frame = &piece->frame;
+    for (int32_t i = 0; i < piece->count; ++i) {
+        const fe__clip_vertex *v = piece->vertex + i;
+        if (v->height > g->margin || !fe__tile_feels(g, tile, v->height)) continue;
+        fe_vec3 p = fe__add_scaled(piece->origin, v->u, frame->x);
+        p = fe__add_scaled(fe__add_scaled(p, v->v, frame->y), 0.5f * v->height, frame->z);
+        uint32_t feature = cut->body_id << 16 | v->id;
+        int32_t is_corner = cut->body_id && is_vertex(v->id);
+        fe__gather(g, tile, cut->normal, p, v->height, is_corner ? feature : fe__tile_id(tile, feature));
     }
+}
+
+void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut)
+{
+    fe__cut_piece piece;
+    fe__tile_cut_piece(tile, cut, &piece);
+    fe__tile_gather_piece(g, tile, cut, &piece);
+}
+
+int32_t fe__tile_settles(const fe__cut *cut, const fe__cut_piece *piece, float lowest)
+{
+    if (!(lowest >= -cut->tie)) return 0;
+    for (int32_t i = 0; i < piece->count; ++i)
+        if (piece->vertex[i].height <= lowest + cut->tie) return 1;
+    return 0;
 }

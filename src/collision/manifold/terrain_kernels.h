@@ -2,6 +2,7 @@
 // centred at the origin.
 #ifndef FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
 #define FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
+#include "collision/form/clip.h"
 #include "collision/manifold/terrain_gather.h"
 
 // `ends`: of the core, a sphere's twice the same
@@ -25,7 +26,20 @@ struct fe__face;
 // not known
 void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, int32_t vertex,
                         struct fe__face *face);
-void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut);
+// What is left of the incident one: heights over the reference's plane
+typedef struct fe__cut_piece {
+    fe_vec3 origin;
+    fe__mat3 frame;
+    int32_t count;
+    fe__clip_vertex vertex[FE_CLIP_VERTICES];
+} fe__cut_piece;
+void fe__tile_cut_piece(const fe__tile *tile, const fe__cut *cut, fe__cut_piece *piece);
+void fe__tile_gather_piece(fe__gathering *g, const fe__tile *tile, const fe__cut *cut, const fe__cut_piece *piece);
+void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut); // both
+// Is a piece of the body's face, cut by the triangle, as low as its lowest point, which is hardly under the plane?
+// Along a unit m a point over the triangle is no farther from it than its height, or 0: no other direction is better
+// than the normal by more than a tie
+int32_t fe__tile_settles(const fe__cut *cut, const fe__cut_piece *piece, float lowest);
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);
 
 #endif
