@@ -18,6 +18,8 @@ static const command commands[] = {
     {"speed", bench_command_speed, "time per step of all engines, interleaved"},
     {"queries", bench_command_queries, "rays, sweeps, overlaps, and building meshes and hulls, beside Bullet's"},
     {"draw", bench_command_draw, "time of the calls that draw: draw [BODIES]"},
+    {"state", bench_command_state, "time and size of snapshots, in a pile and at rest"},
+    {"history", bench_command_history, "keeping frames and going back to them, beside a plain copy of as many bytes"},
     {"record", bench_command_record, "what recording costs, and how fast it plays: record [BODIES [SLEEPING]]"},
     {"replay", bench_command_replay,
      "every case, recorded and played again: replay [--quick] [--keep FOLDER] [CASE...]"},

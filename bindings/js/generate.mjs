@@ -14,10 +14,12 @@ fe_asset_get_key fe_heightfield_create fe_hull_create fe_mesh_create fe_compound
 fe_heightfield_get_heights fe_mesh_set_materials fe_world_raycast_many fe_world_sweep_many fe_world_get_moved
 fe_world_get_transforms fe_world_set_transforms fe_world_get_transforms_f32 fe_world_get_velocities fe_world_set_velocities
 fe_world_add_forces fe_world_hash fe_world_draw_lines fe_world_draw_triangles fe_world_draw_points
-fe_world_draw_instances fe_version fe_last_error fe_result_name`.split(/\s+/);
+fe_world_draw_instances fe_history_create fe_history_destroy fe_history_keep fe_history_restore fe_history_get_frames
+fe_version fe_last_error fe_result_name`.split(/\s+/);
 const recordings = [...header.matchAll(/\b(fe_(?:recorder|player|divergence)_\w+)\(/g)];
 export const LEFT_OUT = {
     ...Object.fromEntries(recordings.map(([, name]) => [name, 'recordings are for hosts in C'])),
+    fe_snapshot_compare: 'why two machines differ is looked for in C, Python, C# or Lua', fe_difference_init: 'of fe_snapshot_compare',
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',
@@ -398,8 +400,8 @@ if (process.argv[3] === '--missing') {
     process.exit(missing.length ? 1 : 0);
 }
 
-for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_snapshot_info']) { table(t); inTypes.add(t); }
-for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance']) { reader(t); outTypes.add(t); }
+for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_snapshot_info', 'fe_history_def']) { table(t); inTypes.add(t); }
+for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance', 'fe_history_frame']) { reader(t); outTypes.add(t); }
 let classesTs = '';
 for (const [name, methods] of Object.entries(classes)) {
     // a property's getter and setter stand together, else the types are wrong

@@ -1,6 +1,7 @@
 // held.c - see held.h.
 #include "state/held.h"
 
+#include "core/stream.h"
 #include "state/restore.h"
 #include "world/asset_users.h"
 #include "world/sleep.h"
@@ -141,6 +142,18 @@ static void lay_out(fe__held *held, const fe_world *w)
     }
 }
 
+// Sixteen frames of more than that are larger than the caches of most machines, bytes
+enum { LARGE_FRAME = 1 << 20 };
+
+static void copy_array(const fe__held *held, int32_t i, const void *elements)
+{
+    if (!held->used[i]) return;
+    if (held->bytes > LARGE_FRAME)
+        fe__stream(held->arrays[i], elements, (size_t)held->used[i]);
+    else
+        memcpy(held->arrays[i], elements, (size_t)held->used[i]);
+}
+
 int32_t fe__held_fill(fe__held *held, fe_world *w, const fe__held *before)
 {
     *held = (fe__held){.size = held->size,
@@ -152,8 +165,7 @@ int32_t fe__held_fill(fe__held *held, fe_world *w, const fe__held *before)
     unsigned char *at = held->members;
     for (int32_t i = 0; i < FE__MEMBERS; at += range_size(i), ++i)
         memcpy(at, (const unsigned char *)w + fe__state_members[i].first, (size_t)range_size(i));
-    for (int32_t i = 0; i < FE__ARRAYS; ++i)
-        if (held->used[i]) memcpy(held->arrays[i], fe__array_get(w, fe__arrays + i), (size_t)held->used[i]);
+    for (int32_t i = 0; i < FE__ARRAYS; ++i) copy_array(held, i, fe__array_get(w, fe__arrays + i));
     return 1;
 }
 

@@ -1,7 +1,7 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
-import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, FeatherError } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
 import * as api from './api.js';
-const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info } = api;
+const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def } = api;
 
 const dead = (what) => { throw new FeatherError('FE_ERROR_STALE', `the ${what} is destroyed`); };
 const free = new FinalizationRegistry((end) => end());
@@ -248,6 +248,24 @@ export class Bodies {
     }
 }
 
+// ---- histories ------------------------------------------------------------------------------------------------------
+
+export class History {
+    constructor(world, p) { this.world = world, this._p = p; }
+    #at() {
+        this.world._w();
+        return this._p || dead('history');
+    }
+    keep(frame) { ok(x.fe_history_keep(this.#at(), long(frame, 'frame'))); }
+    restore(frame) { ok(x.fe_history_restore(this.#at(), long(frame, 'frame'))); }
+    get frames() { reset(); return listOut(16, api.readHistoryFrame, (a, n) => x.fe_history_get_frames(this.#at(), a, 16, n)); }
+    destroy() {
+        ok(x.fe_history_destroy(this.#at()));
+        this._p = 0;
+    }
+    [dispose]() { if (this._p && this.world._p) this.destroy(); }
+}
+
 // ---- worlds ---------------------------------------------------------------------------------------------------------
 
 const worldDef = (at, options) => {
@@ -270,13 +288,31 @@ const restoreOptions = (at, options) => {
     return at;
 };
 
+// What World.getMoved gives: handles become numbers when they are asked for
+class Moved {
+    #area;
+    #ids = new Float64Array(64);
+    #read = true;
+    count = 0;
+    poses = new Float32Array(0);
+    constructor(area) { this.#area = area; }
+    renew(count, poses) { return this.count = count, this.poses = poses, this.#read = false, this; }
+    get ids() {
+        if (this.#read) return this.#ids;
+        const n = this.count;
+        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
+        for (let k = 0, i = this.#area.at >> 2; k < n; ++k, i += 2) this.#ids[k] = u32[i] + u32[i + 1] * 4294967296;
+        this.#read = true;
+        return this.#ids;
+    }
+}
+
 const HIT = api.HIT_BYTES, VERTEX = api.VERTEX_BYTES, INSTANCE = api.INSTANCE_BYTES;
 
 export class World extends api.WorldCalls {
     #areas = { moved: new Area(), poses: new Area(), hits: new Area(), lines: new Area(), triangles: new Area(), points: new Area(), instances: new Area() };
     #views = {};
-    #moved = { count: 0, ids: new Float64Array(0), poses: new Float32Array(0) };
-    #ids = new Float64Array(64);
+    #moved = new Moved(this.#areas.moved);
     constructor(options) {
         super();
         reset();
@@ -320,6 +356,11 @@ export class World extends api.WorldCalls {
     shape(of) { return new Shape(this, Number(handle(of, 'handle'))); }
     joint(of) { return new Joint(this, Number(handle(of, 'handle'))); }
     list(bodies) { return new Bodies(this, bodies); }
+    createHistory(options) {
+        reset();
+        ok(x.fe_history_create(this._w(), maybe($history_def, scratch + 16, options, 'options'), scratch));
+        return new History(this, u32[scratch >> 2]);
+    }
     get store() { return new Store(undefined, this); }
     createHull(options) { return this.store.createHull(options); }
     createHeightfield(options) { return this.store.createHeightfield(options); }
@@ -342,12 +383,7 @@ export class World extends api.WorldCalls {
             const at = poses.need(4 * FLOATS_OF_POSE * n);
             ok(x.fe_world_get_transforms_f32(w, moved.at, dvec3(scratch, origin ?? ZERO, 'origin'), at, 0, n));
         }
-        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
-        const ids = this.#ids;
-        for (let k = 0, i = moved.at >> 2; k < n; ++k, i += 2) ids[k] = u32[i] + u32[i + 1] * 4294967296;
-        this.#moved.count = n, this.#moved.ids = ids;
-        this.#moved.poses = this.#view('moved', Float32Array, poses.at, poses.bytes >> 2);
-        return this.#moved;
+        return this.#moved.renew(n, this.#view('moved', Float32Array, poses.at, poses.bytes >> 2));
     }
     #view(name, type, at, length) { return (this.#views[name] ??= new View(type)).get(at, length); }
 

@@ -2,7 +2,7 @@ import {
     WorldCalls, BodyCalls, ShapeCalls, JointCalls, StoreCalls, AssetCalls, HullCalls, HeightfieldCalls, MeshCalls, CompoundCalls,
     Vec3, Quat, Vec3Like, QuatLike, Handle, Hit, Transform, SnapshotInfo, GeometryType, JointType, BodyDefOptions, ShapeDefOptions,
     GeometryOptions, MaterialOptions, HullDefOptions, HeightfieldDefOptions, MeshDefOptions, CompoundPartOptions, TransformOptions,
-    PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions,
+    PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions, HistoryDefOptions, HistoryFrame,
 } from './api.js';
 export * from './api.js';
 
@@ -99,6 +99,18 @@ export class Bodies {
     [Symbol.dispose](): void;
 }
 
+/** The last frames of a world, in memory, for rollback. It ends with destroy, or with its world. */
+export class History {
+    readonly world: World;
+    /** Keeps the world as it is, before a step; numbers rise, the oldest frames go. */
+    keep(frame: number): void;
+    /** Puts the world back to a frame; those after it go. */
+    restore(frame: number): void;
+    readonly frames: HistoryFrame[];
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+
 export interface WorldOptions extends WorldDefOptions { store?: Store }
 export interface RestoreOptions extends RestoreOptionsOptions { assets?: readonly Asset[] }
 
@@ -117,6 +129,8 @@ export class World extends WorldCalls {
     shape(handle: Handle<Shape>): Shape;
     joint(handle: Handle<Joint>): Joint;
     list(bodies: ArrayLike<Handle<Body>>): Bodies;
+    /** The last frames of the world, to go back to. */
+    createHistory(options?: HistoryDefOptions | null): History;
     readonly store: Store;
     createHull(options: HullDefOptions | ArrayLike<number>): Hull;
     createHeightfield(options: HeightfieldDefOptions): Heightfield;

@@ -127,6 +127,7 @@ export function big(v, name) {
     if (typeof v === 'bigint' && v >= 0n && v < 1n << 64n) return v;
     return Number.isSafeInteger(v) && v >= 0 ? BigInt(v) : wrong(name, 'an integer of 0..2^53 - 1 or a BigInt', v);
 }
+export function long(v, name) { return Number.isSafeInteger(v) ? BigInt(v) : wrong(name, 'an integer', v); }
 export function handle(v, name) {
     if (v === null || v === undefined) return 0n;
     if (typeof v === 'object' && typeof v._h === 'bigint') return v._h;

@@ -16,8 +16,10 @@ export function makeWorld(feather) {
     const heightfield = world.createHeightfield({ rows: 3, columns: 3, cellX: 1, cellZ: 1, heights: new Float32Array(9) });
     const mesh = world.createMesh({ vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: [0, 1, 2], materials: [{ friction: 0.25 }], triangleMaterials: [0] });
     const compound = world.createCompound([{ geometry: { type: 'sphere', radius: 1 } }, { geometry: { type: 'box', halfExtents: [1, 1, 1] }, position: [2, 0, 0] }]);
+    const history = world.createHistory();
+    history.keep(1);
     for (let i = 0; i < 30; ++i) world.step(1 / 60);
-    return { world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
+    return { history, world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
 }
 const RAY = [[0, 9, 0], [0, -20, 0]], BALL = { type: 'sphere', radius: 0.5 }, AT = { position: [0, 1, 0] }, TURN = [0, 1, 0];
 const POINT = [0, 1, 0], AXIS = [0, 0, 1];
@@ -38,7 +40,7 @@ export const CALLS = {
         ['sweepMany', BALL, [{ start: AT, translation: [1, 0, 0] }]], ['overlap', BALL, AT], ['overlapAny', BALL, AT], ['overlapShapes', BALL, AT],
         ['overlapBounds', { lower: [-1, -1, -1], upper: [1, 1, 1] }], ['closestPoint', [0, 5, 0], 9], ['pairEvents'], ['bodyEvents'], ['hitEvents'], ['jointEvents'],
         ['createBody', { type: 'dynamic', position: [9, 9, 9], linearLocks: ['x', 'y'] }], ['createBodies', [{}, { type: 'static' }]], ['destroyBodies', []],
-        ['list', [s.body, s.other.id]], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
+        ['list', [s.body, s.other.id]], ['createHistory', { frames: 4, bytes: 1e6 }], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
         ['createHeightfield', { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0] }], ['createMesh', { vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: [0, 1, 2] }],
         ['createCompound', [{ geometry: BALL, density: 5 }]], ['hash'], ['getMoved', [0, 0, 0]], ['save', { flags: 0 }], ['drawLines', { parts: ['shapes', 'bounds'] }],
         ['drawTriangles'], ['drawPoints', { parts: 'contacts' }], ['drawInstances', { only: s.body }], ['setGroup'],
@@ -69,6 +71,7 @@ export const CALLS = {
         ['bytes'], ['createHull', [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]], ['createHeightfield', { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0], holes: [0] }],
         ['createMesh', { vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: new Uint16Array([0, 1, 2]), flags: 'twoSided' }], ['createCompound', [{ geometry: BALL, density: 5 }]],
     ],
+    history: () => [['keep', 7], ['frames']],
     hull: () => [['isValid'], ['type'], ['key'], ['save'], ['info'], ['vertices'], ['faces'], ['corners']],
     heightfield: () => [['setHeights', 0, 0, 1, 2, [1, 2]], ['getHeights', 0, 0, 2, 2]],
     mesh: () => [['info'], ['getTriangle', 0], ['setMaterials', [{ friction: 0.5 }]]],

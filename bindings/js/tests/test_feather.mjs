@@ -140,6 +140,32 @@ test('snapshots go on bit for bit, in place and anew, in a buffer of the caller,
     copy.destroy(), world.destroy(), stranger.destroy();
 });
 
+test('a history goes back bit for bit, and refuses frames that it has not', () => {
+    const world = new World(), bodies = pile(world), history = world.createHistory({ frames: 4 }), hashes = [];
+    for (let i = 0; i < 10; ++i) {
+        history.keep(i);
+        hashes[i] = world.hash;
+        world.step(1 / 60);
+    }
+    assert.deepEqual(history.frames.map((f) => f.frame), [6, 7, 8, 9]);
+    const end = world.hash;
+    for (const again of [1, 2]) {
+        bodies[0].addImpulse([0, 900 * again, 0]);
+        history.restore(6);
+        assert.equal(world.hash, hashes[6]);
+        for (let i = 6; i < 10; ++i) world.step(1 / 60);
+        assert.equal(world.hash, end);
+    }
+    assert.throws(() => history.restore(9), { code: 'FE_ERROR_STALE' });
+    assert.throws(() => history.keep(3), { code: 'FE_ERROR_ARGUMENT' });
+    assert.throws(() => history.keep(0.5), TypeError);
+    history.destroy();
+    assert.throws(() => history.keep(99), { code: 'FE_ERROR_STALE' });
+    const other = world.createHistory();
+    world.destroy();
+    assert.throws(() => other.frames, { code: 'FE_ERROR_STALE' });
+});
+
 test('poses of moved bodies are views that no step makes anew, unless memory grows', () => {
     const world = new World(), bodies = pile(world, 100);
     world.step(1 / 60);

@@ -1,5 +1,5 @@
 // Random calls with random arguments of every type: each returns, or throws a TypeError or a FeatherError. Nothing traps.
-//   FUZZ_SECONDS, FUZZ_SEED
+//   FUZZ_ROUNDS of 300 calls, FUZZ_SEED
 import test from 'node:test';
 import assert from 'node:assert/strict';
 import feather from './package.mjs';
@@ -14,9 +14,9 @@ test('fuzz', () => {
     };
     const odd = [undefined, null, true, NaN, Infinity, -0, 0, 1, -1, 0.5, 1e30, 2 ** 31, 2 ** 32, 2 ** 53, 5n, -5n, 'x', 'dynamic', '', [], [1], [1, 2, 3], [1, 2, 3, 4], [NaN, 0, 0], {}, { x: 1, y: 2, z: 3 }, { length: 3 },
         { length: -1 }, { length: 1e9 }, new Float32Array(3), new Uint8Array(7), new ArrayBuffer(8), () => 0, Symbol('s'), new Date(), new Map(), Object.create(null), new Proxy({}, {}), /x/];
-    const kinds = Object.keys(CALLS), end = performance.now() + 1000 * Number(process.env.FUZZ_SECONDS ?? 4);
+    const kinds = Object.keys(CALLS), rounds = Number(process.env.FUZZ_ROUNDS ?? 30);
     let calls = 0, refused = 0;
-    while (performance.now() < end) {
+    for (let round = 0; round < rounds; ++round) {
         const s = makeWorld(feather), tables = Object.fromEntries(kinds.map((k) => [k, CALLS[k](s)]));
         const mutate = (v, depth = 0) => {
             if (below(3) === 0 || depth > 2 || v === null || typeof v !== 'object') return odd[below(odd.length)];
@@ -41,5 +41,5 @@ test('fuzz', () => {
         s.world.step(1 / 60);
         s.world.destroy();
     }
-    assert.ok(calls > 1000 && refused > 100, `${calls} calls, ${refused} refused`);
+    assert.ok(refused > calls / 10 && refused < calls * 0.9, `${calls} calls, ${refused} refused`);
 });
