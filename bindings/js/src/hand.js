@@ -1,5 +1,5 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
-import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
 import * as api from './api.js';
 const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def } = api;
 
@@ -21,9 +21,7 @@ class Area {
     bytes = 0;
     need(bytes) {
         if (bytes <= this.bytes) return this.at;
-        const size = Math.max(bytes, 2 * this.bytes, 1024), at = x.malloc(size);
-        if (!at) throw new FeatherError('FE_ERROR_MEMORY', `no memory for an array of ${bytes} bytes`);
-        ok(0); // memory may have grown
+        const size = Math.max(bytes, Math.min(2 * this.bytes, 2 ** 30), 1024), at = allocate(size);
         x.free(this.at);
         return this.bytes = size, this.at = at;
     }
@@ -206,11 +204,10 @@ export class Bodies {
         const n = bodies?.length;
         if (!Number.isInteger(n)) wrong('bodies', 'an array', bodies);
         this.count = n;
-        const given = Array.from(bodies, (b, k) => handle(b, `bodies[${k}]`));
-        this.#handles.need(8 * n);
-        u64.set(given, this.#handles.at >> 3);
         const areas = [this.#handles, this.#values];
         free.register(this, () => areas.forEach((a) => a.end()), this);
+        const at = this.#handles.need(8 * n) >> 3;
+        for (let k = 0; k < n; ++k) u64[at + k] = handle(bodies[k], `bodies[${k}]`);
     }
     destroy() { free.unregister(this), this.#handles.end(), this.#values.end(), this.count = 0; }
     [dispose]() { this.destroy(); }

@@ -92,12 +92,17 @@ export const lastError = () => text(x.fe_last_error());
 
 // ---- memory for one call --------------------------------------------------------------------------------------------
 
+const MOST = 2 ** 31; // bytes of an array; beyond 2^32 the module would take a size for a smaller one
+export function allocate(bytes) {
+    const made = bytes < MOST ? x.malloc(bytes) : 0;
+    if (!made) throw new FeatherError('FE_ERROR_MEMORY', `no memory for an array of ${bytes} bytes`);
+    if (f32.length === 0) renew();
+    return made;
+}
 function grow(bytes) {
-    const made = x.malloc(bytes);
-    if (!made) throw new FeatherError('FE_ERROR_MEMORY', 'no memory for an array of ' + bytes + ' bytes');
+    const made = allocate(bytes);
     if (block) spent.push(block);
     block = made, blockSize = bytes, top = 0;
-    if (f32.length === 0) renew();
 }
 // Begins a call: what the last one's arrays lay in is free again
 export function reset() {
@@ -105,7 +110,7 @@ export function reset() {
     while (spent.length) x.free(spent.pop());
 }
 export function temp(bytes) {
-    if (top + bytes > blockSize) grow(Math.max(2 * blockSize, bytes + 64));
+    if (top + bytes > blockSize) grow(Math.max(Math.min(2 * blockSize, MOST / 2), bytes + 64));
     const at = block + top;
     top = (top + bytes + 15) & ~15;
     return at;
