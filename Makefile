@@ -58,11 +58,15 @@ ifneq ($(filter __x86_64__,$(MACROS)),)
 SIMD_SETS := plain sse2 avx2 avx512
 else ifneq ($(filter __aarch64__,$(MACROS)),)
 SIMD_SETS := plain neon
+else ifneq ($(filter __wasm__,$(MACROS)),)
+SIMD_SETS := plain wasm
 else
 SIMD_SETS := plain
 endif
 # The 387 computes in 80 bits and would give results of its own.
 MACHINE_FLAGS := $(if $(filter __i386__,$(MACROS)),-msse2 -mfpmath=sse)
+# An engine that lacks WebAssembly's SIMD refuses a module with any of it: then all of the code may have it.
+MACHINE_FLAGS += $(if $(filter __wasm__,$(MACROS)),$(if $(filter wasm,$(SIMD_SETS)),-msimd128))
 # WebAssembly has neither shared objects nor, as wasm32-wasi, threads: all runs on the caller.
 SHARING := $(if $(filter __wasm__,$(MACROS)),,-fPIC -pthread)
 
@@ -71,16 +75,18 @@ SIMD_sse2 := -DFE_W=4 -msse2
 SIMD_avx2 := -DFE_W=8 -mavx2
 SIMD_avx512 := -DFE_W=16 -mavx512f -mprefer-vector-width=512
 SIMD_neon := -DFE_W=4
+SIMD_wasm := -DFE_W=4
 HAVE_plain :=
 HAVE_sse2 := -DFE_HAVE_SSE2=1
 HAVE_avx2 := -DFE_HAVE_AVX2=1
 HAVE_avx512 := -DFE_HAVE_AVX512=1
 HAVE_neon := -DFE_HAVE_NEON=1
+HAVE_wasm := -DFE_HAVE_WASM=1
 
 # STRICT comes last on every command line: whatever CFLAGS hold, results keep their bits. No SLP vectorizer: that of gcc 12 takes a double
 # rounded to float and back for the double itself.
 STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off -fno-tree-slp-vectorize
-DEFINES := -DFE_BUILD $(if $(SANITIZE),,-DNDEBUG) $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
+DEFINES := -DFE_BUILD $(if $(filter plain,$(SIMD_SETS)),,-DFE_WITHOUT_PLAIN) $(if $(SANITIZE),,-DNDEBUG) $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
 C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden $(SHARING) $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
 CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
 LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) $(filter -pthread,$(SHARING))

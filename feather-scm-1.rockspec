@@ -28,6 +28,7 @@ build = {
             ["feather.options"] = "bindings/lua/feather/options.lua",
             ["feather.query"] = "bindings/lua/feather/query.lua",
             ["feather.shape"] = "bindings/lua/feather/shape.lua",
+            ["feather.history"] = "bindings/lua/feather/history.lua",
             ["feather.snapshot"] = "bindings/lua/feather/snapshot.lua",
             ["feather.store"] = "bindings/lua/feather/store.lua",
             ["feather.structs"] = "bindings/lua/feather/structs.lua",

@@ -35,6 +35,10 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
+// Recordings: for hosts in C.
+%rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_[a-z_]+)?$") "";
+%ignore fe_note;
+
 #if defined(SWIGPYTHON)
 %include "python/python.i"
 #elif defined(SWIGLUA)

@@ -28,6 +28,7 @@ FE_RECORD(fe_compound_part)
 FE_RECORD(fe_draw_options)
 FE_RECORD(fe_save_options)
 FE_RECORD(fe_restore_options)
+FE_RECORD(fe_history_def)
 // A definition's own init writes as much as the object holds.
 %typemap(in, numinputs=0) uint32_t struct_size "$1 = 0;"
 %typemap(check) uint32_t struct_size "$1 = arg1 ? (uint32_t)sizeof *arg1 : 0;"

@@ -99,9 +99,12 @@ typedef fe_handle fe_shape;
 typedef fe_handle fe_joint;
 typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield, a convex hull, a mesh, a compound
 
-typedef struct fe_world fe_world; ///< everything that can touch each other
-typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
-typedef struct fe_store fe_store; ///< assets that several worlds may share
+typedef struct fe_world fe_world;       ///< everything that can touch each other
+typedef struct fe_pool fe_pool;         ///< worker threads that several worlds may share
+typedef struct fe_store fe_store;       ///< assets that several worlds may share
+typedef struct fe_recorder fe_recorder; ///< a recording of a world while it grows
+typedef struct fe_player fe_player;     ///< a world that does what a recording says
+typedef struct fe_history fe_history;   ///< the last frames of a world, to go back to
 
 /// A vector: m, m/s, N... as its field says.
 typedef struct fe_vec3 {
@@ -496,6 +499,7 @@ typedef enum fe_simd {
     FE_SIMD_AVX2 = 3,
     FE_SIMD_AVX512 = 4,
     FE_SIMD_NEON = 5,
+    FE_SIMD_WASM = 6, ///< of WebAssembly
     FE_SIMD_FORCE32 = 0x7fffffff
 } fe_simd;
 
@@ -1846,6 +1850,198 @@ FE_API fe_result fe_snapshot_check(const void *bytes, int64_t size, fe_snapshot_
 /// @return how many there are, or an error
 FE_API int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *out_keys, uint32_t stride,
                                       int32_t capacity);
+
+// ---- histories ------------------------------------------------------------------------------------------------------
+// The last frames of a world, in memory, for rollback: keep each frame before its step, and when an input of the past
+// turns out to be another one, go back to that frame and step again. A world that was put back answers and moves as it
+// did then, bit for bit. docs/SNAPSHOTS.md shows the loop.
+//
+// A history is of one world, which may have several, and ends with fe_history_destroy or with the world. Calls of one
+// that is gone are FE_ERROR_STALE.
+
+typedef struct fe_history_def {
+    uint32_t struct_size;
+    int32_t frames; ///< how many are kept, 1 to 65536. Default 16
+    int64_t bytes;  ///< what all frames may hold together, 0: as much as they need. Default 0
+} fe_history_def;
+
+FE_API void fe_history_def_init(fe_history_def *def, uint32_t struct_size);
+
+/// @param def  NULL: the defaults
+FE_API fe_result fe_history_create(fe_world *world, const fe_history_def *def, fe_history **out_history);
+FE_API fe_result fe_history_destroy(fe_history *history);
+
+/// Keeps the world as it is: all that a snapshot holds, and the heights and materials of its assets. Beside queries,
+/// never beside a step. When there are too many frames, or bytes, the oldest go. While a world sleeps and is left
+/// alone, its frames share what they hold. The memory is the world's; in a history that is full it is used again.
+/// @param frame  a number of yours, above that of the last frame kept
+/// @return FE_ERROR_LIMIT when the frame alone needs more than `bytes`; FE_ERROR_MEMORY. Nothing changed then
+FE_API fe_result fe_history_keep(fe_history *history, int64_t frame);
+
+/// Puts the world back to a frame; those after it go, it stays. Handles of what was made since are stale, and may be
+/// given again to something else. The pair filter stays as it is. Heights and materials that were edited since are put
+/// back, for every world that has them.
+/// @return FE_ERROR_STALE when there is no such frame; FE_ERROR_MEMORY; FE_ERROR_STEPPING, FE_ERROR_BUSY also when
+///         another world with an edited asset is. Nothing changed then
+FE_API fe_result fe_history_restore(fe_history *history, int64_t frame);
+
+/// A frame of a history.
+typedef struct fe_history_frame {
+    int64_t frame; ///< its number
+    int64_t bytes; ///< what it holds, without what the frame before it has, too
+} fe_history_frame;
+
+/// Which frames there are, the oldest first.
+/// @param stride  bytes: sizeof of the caller's record
+/// @return how many, or an error
+FE_API int32_t fe_history_get_frames(const fe_history *history, fe_history_frame *out_frames, uint32_t stride,
+                                     int32_t capacity);
+
+// ---- recordings -----------------------------------------------------------------------------------------------------
+//
+// A recording holds what a world was when it began, and each call that changed it since. A player makes the same calls
+// in a world of its own, on any machine, with any workers and SIMD set, and compares: handles at each call, hashes at
+// each step, the whole state at each keyframe. docs/RECORDING.md has the details and the bytes.
+
+/// Bits of fe_recorder_def.flags.
+typedef enum fe_record_flags {
+    FE_RECORD_NONE = 0,
+    FE_RECORD_ASSETS = 1, ///< contents of assets, by fe_asset_save: where it is played, none need be there
+    FE_RECORD_FINE = 2,   ///< 17 bytes for each awake body and step: who diverges is named at once
+    FE_RECORD_LAST = 4,   ///< a flight recorder: what no longer fits goes, oldest first
+    FE_RECORD_FORCE32 = 0x7fffffff
+} fe_record_flags;
+
+/// How a world is recorded.
+typedef struct fe_recorder_def {
+    uint32_t struct_size;
+    uint32_t flags;         ///< fe_record_flags. Default FE_RECORD_ASSETS
+    int32_t keyframe_steps; ///< a snapshot each time that so many steps moved something; 0: one, at first. Default 600
+    uint32_t reserved;
+    int64_t buffer_bytes; ///< that may wait to be read, or with FE_RECORD_LAST are kept, from 65536 on. Default 64 MB
+} fe_recorder_def;
+
+FE_API void fe_recorder_def_init(fe_recorder_def *def, uint32_t struct_size);
+/// Begins a recording, between any two calls. Each call that changes the world is noted from here on, until the
+/// recorder or the world is destroyed. Calls that fail changed nothing and are left out. The world has one recorder at
+/// most. What goes wrong in a recording ends it, and never a call of the world: see fe_recorder_read.
+/// @param def  NULL: the defaults
+/// @return FE_ERROR_STATE when the world has a recorder; FE_ERROR_LIMIT when the first keyframe does not fit
+FE_API fe_result fe_recorder_create(fe_world *world, const fe_recorder_def *def, fe_recorder **out_recorder);
+/// What was recorded since the last read, as bytes to be appended to a file: whole chunks, as many as fit. With
+/// FE_RECORD_LAST the whole recording as it is kept, each time, or nothing when it does not fit. Any thread may read,
+/// also during a step.
+/// @param out       NULL, 0 asks for the size of what waits
+/// @param capacity  bytes
+/// @param out_size  bytes that were written
+/// @return FE_ERROR_LIMIT when not even the next chunk fits: *out_size is what it takes. When nothing waits, why the
+///         recording ended: FE_END with its world, FE_ERROR_MEMORY, FE_ERROR_LIMIT as nobody read and the buffer was
+///         full
+FE_API fe_result fe_recorder_read(fe_recorder *recorder, void *out, int64_t capacity, int64_t *out_size);
+/// Leaves words at this moment of the recording.
+/// @param about  any handle, or 0
+/// @param text   UTF-8, ends with 0; at most 4096 bytes
+/// @return FE_ERROR_STATE when the recording has ended
+FE_API fe_result fe_recorder_note(fe_recorder *recorder, fe_handle about, const char *text);
+/// Ends the recording. What nobody read is lost. The pointer is dead afterwards. From the thread that uses the world.
+/// @return FE_ERROR_STEPPING, FE_ERROR_BUSY as for a call of the world
+FE_API fe_result fe_recorder_destroy(fe_recorder *recorder);
+
+/// How a recording is played.
+typedef struct fe_player_def {
+    uint32_t struct_size;
+    int32_t worker_count; ///< 1..64. Default 1
+    int32_t simd;         ///< fe_simd. Default FE_SIMD_AUTO
+    uint32_t reserved;
+    fe_pool *pool;                 ///< or NULL
+    fe_store *store;               ///< where assets are found that the recording does not hold; NULL: one of its own
+    const fe_allocator *allocator; ///< copied; of player and world. NULL: malloc
+} fe_player_def;
+
+FE_API void fe_player_def_init(fe_player_def *def, uint32_t struct_size);
+/// @param def  NULL: the defaults
+/// @return FE_ERROR_STALE for a pool or a store that is gone
+FE_API fe_result fe_player_create(const fe_player_def *def, fe_player **out_player);
+/// Adds bytes of a recording, in pieces of any size. They are copied. A recording that was cut plays to its last whole
+/// chunk. Bytes from anywhere may be given: they are refused or played.
+/// @return FE_ERROR_DATA for what is no recording or was altered: what stood before it plays; FE_ERROR_VERSION for a
+///         newer format; FE_ERROR_UNSUPPORTED for packed chunks: unpack them with tools/feather-rec
+FE_API fe_result fe_player_feed(fe_player *player, const void *bytes, int64_t size);
+/// Makes the recorded calls up to the end of the next step.
+/// @return FE_END: no more yet. FE_ERROR_DIVERGED, once: the world went another way in this step, see
+///         fe_player_get_divergence; it goes on with the next call. FE_ERROR_DATA for calls that nobody recorded so;
+///         FE_ERROR_MEMORY: call it again when there is some; FE_ERROR_STATE when an asset is missing
+FE_API fe_result fe_player_step(fe_player *player);
+/// Goes to the end of a step, forwards or backwards, from the nearest keyframe before it.
+/// @param step  as fe_player_info counts
+/// @return FE_ERROR_ARGUMENT for a step before the first one; else as fe_player_step
+FE_API fe_result fe_player_seek(fe_player *player, int64_t step);
+/// The world as it is now, for all calls that read. It is the player's.
+/// @return FE_ERROR_STATE before the first step or seek, and after fe_player_release
+FE_API fe_result fe_player_get_world(const fe_player *player, const fe_world **out_world);
+/// Hands the world over: it is the caller's from here on, to be changed, stepped, destroyed. Its pair filter, where the
+/// recorded world had one, lets all pairs collide: set another. A seek makes the player another world.
+/// @return FE_ERROR_STATE as for fe_player_get_world
+FE_API fe_result fe_player_release(fe_player *player, fe_world **out_world);
+
+/// Where a player is, and what it has.
+typedef struct fe_player_info {
+    uint32_t struct_size;
+    uint32_t library;     ///< fe_version of the library that recorded; 0: no header yet
+    uint32_t flags;       ///< fe_record_flags of the recording
+    int32_t foreign;      ///< 1: the results of that library differ from this one's
+    int64_t first_step;   ///< where the first keyframe stands
+    int64_t last_step;    ///< where the last whole chunk begins, at least: what it holds shows as it is played
+    int64_t step;         ///< where the player is: steps of the recording, from the world's step number at its start on
+    int64_t calls;        ///< that were made since the player's creation, steps among them
+    int64_t bytes;        ///< fed, of whole chunks
+    int32_t keyframes;    ///< in these
+    int32_t notes;        ///< likewise
+    int32_t has_diverged; ///< 1: there is a divergence to be told
+    uint32_t reserved;
+} fe_player_info;
+
+FE_API void fe_player_info_init(fe_player_info *info, uint32_t struct_size);
+/// @param out_info  its struct_size must be set
+FE_API fe_result fe_player_get_info(const fe_player *player, fe_player_info *out_info);
+
+/// Words that somebody left in a recording.
+typedef struct fe_note {
+    int64_t step;     ///< steps that there had been
+    fe_handle about;  ///< as it was given
+    const char *text; ///< valid as long as the player
+} fe_note;
+
+/// The notes of what was fed, in their order.
+/// @param stride  sizeof(fe_note), at least 16
+FE_API int32_t fe_player_get_notes(const fe_player *player, fe_note *out_notes, uint32_t stride, int32_t capacity);
+
+/// What differs where a replay goes another way.
+typedef enum fe_divergence_type {
+    FE_DIVERGENCE_CALL = 1,     ///< a call failed, or returned another handle
+    FE_DIVERGENCE_STEP = 2,     ///< the bodies after a step, or how many of them are awake, pairs or contacts
+    FE_DIVERGENCE_KEYFRAME = 3, ///< the whole state
+    FE_DIVERGENCE_FORCE32 = 0x7fffffff
+} fe_divergence_type;
+
+/// The first difference between a replay and its recording.
+typedef struct fe_divergence {
+    uint32_t struct_size;
+    int32_t type;      ///< fe_divergence_type
+    int64_t step;      ///< of the recording
+    fe_handle body;    ///< the first that differs, of those awake; 0: not known without FE_RECORD_FINE
+    int32_t component; ///< of the field: 0 x, 1 y, 2 z, 3 w; -1: none
+    uint32_t reserved;
+    const char *field; ///< "linear velocity"...; "" when it is not known. Valid as long as the library
+    const char *text;  ///< all of it in a sentence; valid as long as the player, until the next divergence
+} fe_divergence;
+
+FE_API void fe_divergence_init(fe_divergence *divergence, uint32_t struct_size);
+/// @param out_divergence  its struct_size must be set
+/// @return FE_ERROR_STATE when there was none
+FE_API fe_result fe_player_get_divergence(const fe_player *player, fe_divergence *out_divergence);
+/// The pointer is dead afterwards.
+FE_API fe_result fe_player_destroy(fe_player *player);
 
 // ---- drawing --------------------------------------------------------------------------------------------------------
 //

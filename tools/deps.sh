@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp), the site of the API
+# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp, wasm: JavaScript), the site of the API
 # (docs) and the bench (all) need beyond the C compiler: installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
@@ -80,6 +80,8 @@ missing_for_hulls() {
 }
 # What the example that loads files reads them with; likewise
 missing_for_examples() { pkg-config --exists assimp 2> /dev/null || echo libassimp-dev; }
+# A page for the JavaScript package; likewise
+missing_for_browser() { has chromium || echo chromium; }
 missing_for_abi() { has abidiff || echo abigail-tools; }
 
 # Another machine's bits, in an emulator; without it the tests say so and go on
@@ -100,7 +102,7 @@ missing_for_foreign() {
 # Prints the missing packages, by their Debian names.
 missing() {
     case $wanted in
-    check | python | lua | csharp | docs) "missing_for_$wanted"; return ;;
+    check | python | lua | csharp | docs | wasm) "missing_for_$wanted"; return ;;
     esac
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
@@ -110,7 +112,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

@@ -4,13 +4,9 @@
 
 #include <string.h>
 
-#define GAS                                                                                                           \
-    "nearly all that is lost is lost in one step: the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after " \
-    "each other; what "                                                                                               \
-    "falls into one substep "                                                                                         \
-    "(2.1 ms with eight) is one inelastic blow. Sixteen keep 99.9 % of it, as each impact has a substep of its own; " \
-    "thirty-two hold the "                                                                                            \
-    "bound"
+#define GAS                                                                                                          \
+    "the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after each other: of a substep of 4.2 ms too many " \
+    "impacts follow each other, and what is left of them is one inelastic blow. Eight substeps hold the bound"
 
 static const struct known {
     const char *scene;
@@ -23,7 +19,7 @@ static const struct known {
      "features that the step "
      "began with, and is found up to that deep in the next; so four of five overlaps beyond 4 cm, the others are not "
      "understood"},
-    {"elastic-666", 0, "mean squared error of the energy, J2", GAS},
+    {"elastic-666", 4, "mean squared error of the energy, J2", GAS},
 };
 
 const char *bench_known_cause(const bench_trial *t, const bench_check *c)

@@ -166,6 +166,8 @@ static fe_result add_body(bench_world *w, const bench_scene *scene, const bench_
     return fe_shape_create(world, *out_body, &form, &geometry, &created);
 }
 
+fe_world *bench_feather_world(bench_world *w) { return w->world; }
+
 static void destroy(bench_world *w)
 {
     if (w->world != NULL) (void)fe_world_destroy(w->world);

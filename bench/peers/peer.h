@@ -93,6 +93,7 @@ typedef struct bench_engine {
 } bench_engine;
 
 extern const bench_engine bench_feather;
+struct fe_world *bench_feather_world(bench_world *world); ///< of Feather's adapter
 extern const bench_engine bench_bullet; ///< with FE_BENCH_BULLET
 extern const bench_engine bench_ode;    ///< with FE_BENCH_ODE
 extern const bench_engine bench_box2d;  ///< with FE_BENCH_BOX2D; planar scenes only

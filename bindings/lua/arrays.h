@@ -198,6 +198,11 @@ static void put_overlap(lua_State *L, int *n, const fe_overlap *e)
     put_integer(L, n, e->part), put_integer(L, n, e->triangle);
 }
 
+static void put_frame(lua_State *L, int *n, const fe_history_frame *f)
+{
+    put_integer(L, n, (long long)f->frame), put_integer(L, n, (long long)f->bytes);
+}
+
 static void put_pair_event(lua_State *L, int *n, const fe_pair_event *e)
 {
     put_handles(L, n, e->body_a, e->body_b), put_handles(L, n, e->shape_a, e->shape_b);
@@ -280,6 +285,7 @@ PUSH_ALL(push_keys, fe_asset_key, 1, put_key)
 PUSH_ALL(push_vertices, fe_vec3, 3, put_vec3)
 PUSH_ALL(push_faces, fe_hull_face, 6, put_face)
 PUSH_ALL(push_corners, int32_t, 1, put_index)
+PUSH_ALL(push_frames, fe_history_frame, 2, put_frame)
 PUSH_ALL(push_handles, fe_handle, 1, put_handle)
 PUSH_ALL(push_floats, float, 1, put_float)
 PUSH_ALL(push_transforms, fe_transform, 7, put_transform)

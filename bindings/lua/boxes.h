@@ -30,6 +30,14 @@ typedef struct store_box {
     const world_box *owner; ///< the world that the store was asked from: it lives at most as long; NULL: it owns itself
 } store_box;
 
+typedef struct history_box {
+    const void *type;
+    int own;
+    fe_history *history;    ///< NULL: destroyed
+    const world_box *owner; ///< its world, with which it ends
+} history_box;
+
+static const char history_type[] = "feather.history";
 static const char world_type[] = "feather.world";
 static const char pool_type[] = "feather.pool";
 static const char store_type[] = "feather.store";
@@ -57,6 +65,15 @@ static int collect_store(lua_State *L)
     return 0;
 }
 
+// Its world is still there as memory: it was made before, and the history keeps it
+static int collect_history(lua_State *L)
+{
+    history_box *box = luaL_checkudata(L, 1, history_type);
+    if (box->history && box->owner->world) (void)fe_history_destroy(box->history);
+    box->history = NULL;
+    return 0;
+}
+
 static void add_type(lua_State *L, const char *name, lua_CFunction collect)
 {
     luaL_newmetatable(L, name);
@@ -72,6 +89,7 @@ static void add_types(lua_State *L)
     add_type(L, world_type, collect_world);
     add_type(L, pool_type, collect_pool);
     add_type(L, store_type, collect_store);
+    add_type(L, history_type, collect_history);
 }
 
 // ---- what an object keeps alive -------------------------------------------------------------------------------------
@@ -164,6 +182,16 @@ static void push_store(lua_State *L, fe_store *store, int owner)
     if (owner) keep_alive(L, owner);
 }
 
+/// Of the world at index 1
+static void push_history(lua_State *L, fe_history *history)
+{
+    history_box *box = lua_newuserdata(L, sizeof *box);
+    *box = (history_box){.type = SWIGTYPE_p_fe_history, .history = history, .owner = lua_touserdata(L, 1)};
+    luaL_getmetatable(L, history_type);
+    lua_setmetatable(L, -2);
+    keep_alive(L, 1);
+}
+
 // ---- reading them ---------------------------------------------------------------------------------------------------
 
 /// `check_` and `to_`: the second is asked again when all arguments are converted, since a table's __index may destroy.
@@ -202,6 +230,13 @@ static fe_store *to_store(lua_State *L, int index)
     const store_box *box = box_at(L, index, store_type, "store");
     if (!box->store || (box->owner && !box->owner->world)) fail(L, "feather: the store is destroyed");
     return box->store;
+}
+
+static fe_history *to_history(lua_State *L, int index)
+{
+    const history_box *box = box_at(L, index, history_type, "history");
+    if (!box->history || !box->owner->world) fail(L, "feather: the history is destroyed");
+    return box->history;
 }
 
 #endif

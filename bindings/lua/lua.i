@@ -74,6 +74,16 @@
 %}
 %typemap(argout) const fe_store * ""
 
+%typemap(in, numinputs=0) fe_history **out_history (fe_history *made = 0) "$1 = &made;"
+%typemap(argout) fe_history **out_history %{ push_history(L, *$1); SWIG_arg++; %}
+%typemap(in) fe_history * (call_state call) "$1 = to_history(L, $input); call.count = 0; (void)call;"
+%typemap(in) const fe_history * = fe_history *;
+%typemap(check) fe_history *, const fe_history * "$1 = to_history(L, $argnum);"
+%typemap(argout) fe_history *history %{
+    if (strcmp("$symname", "history_destroy") == 0) ((history_box *)lua_touserdata(L, 1))->history = NULL;
+%}
+%typemap(argout) const fe_history * ""
+
 // ---- results and numbers --------------------------------------------------------------------------------------------
 
 %typemap(out) fe_result %{
@@ -98,6 +108,7 @@
 %typemap(in) int32_t "$1 = (int32_t)to_integer(L, $input, INT32_MIN, INT32_MAX, \"$1_name\");"
 %typemap(in) uint32_t "$1 = (uint32_t)to_integer(L, $input, 0, UINT32_MAX, \"$1_name\");"
 %typemap(in) fe_handle "$1 = (fe_handle)to_integer(L, $input, 0, 1LL << 53, \"$1_name\");"
+%typemap(in) int64_t "$1 = to_integer(L, $input, -(1LL << 53), 1LL << 53, \"$1_name\");"
 %typemap(in) uint64_t "$1 = to_u64(L, $input, \"$1_name\");"
 %typemap(in) float "$1 = (float)to_number(L, $input, \"$1_name\");"
 %typemap(in) double "$1 = to_number(L, $input, \"$1_name\");"
@@ -207,7 +218,7 @@ FE_OUT_RECORDS
 %typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_overlap *out_overlaps,
     fe_pair_event *out_events, fe_body_event *out_events, fe_hit_event *out_events, fe_joint_event *out_events,
     fe_contact *out_contacts, fe_draw_vertex *out_vertices, fe_draw_instance *out_instances, fe_vec3 *out_vertices,
-    fe_hull_face *out_faces, int32_t *out_corners "$1 = NULL;"
+    fe_hull_face *out_faces, int32_t *out_corners, fe_history_frame *out_frames "$1 = NULL;"
 %define FE_ALL(FUNCTION, OUT, STATE_STRIDE, CAPACITY)
 %exception FUNCTION {
     $action
@@ -233,6 +244,7 @@ FE_ALL_HANDLES(fe_world_overlap_bounds, arg4, arg5)
 FE_ALL_RECORDS(fe_hull_get_vertices, arg3, arg4, arg5)
 FE_ALL_RECORDS(fe_hull_get_faces, arg3, arg4, arg5)
 FE_ALL_RECORDS(fe_hull_get_corners, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_history_get_frames, arg2, arg3, arg4)
 FE_ALL_RECORDS(fe_world_overlap_shapes, arg5, arg6, arg7)
 FE_ALL_RECORDS(fe_world_raycast_all, arg5, arg6, arg7)
 FE_ALL_RECORDS(fe_world_sweep_all, arg6, arg7, arg8)
@@ -265,6 +277,8 @@ FE_PUSH_ALL(fe_handle *out_joints, push_handles)
 FE_PUSH_ALL(fe_vec3 *out_vertices, push_vertices)
 FE_PUSH_ALL(fe_hull_face *out_faces, push_faces)
 FE_PUSH_ALL(int32_t *out_corners, push_corners)
+FE_PUSH_ALL(fe_history_frame *out_frames, push_frames)
+%ignore fe_history_frame;
 FE_PUSH_ALL(fe_transform *out_transforms, push_transforms)
 FE_PUSH_ALL(fe_hit *out_hits, push_hits)
 FE_PUSH_ALL(fe_overlap *out_overlaps, push_overlaps)

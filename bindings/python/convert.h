@@ -49,6 +49,7 @@ static int fails(int result, const char *text)
 
 static const char world_name[] = "feather_physics.world";
 static const char pool_name[] = "feather_physics.pool";
+static const char history_name[] = "feather_physics.history";
 static const char store_name[] = "feather_physics.store";
 
 typedef struct world_box {
@@ -69,6 +70,11 @@ typedef struct store_box {
     fe_store *store; ///< NULL: closed
     PyObject *world; ///< the capsule of the world that the store belongs to; NULL: it belongs to the box
 } store_box;
+
+typedef struct history_box {
+    fe_history *history; ///< NULL: closed
+    PyObject *world;     ///< the capsule of its world, with which it ends
+} history_box;
 
 static void close_world(world_box *box)
 {
@@ -100,6 +106,21 @@ static void release_store(PyObject *capsule)
     if (!box) return;
     if (box->store && !box->world) (void)fe_store_destroy(box->store);
     Py_XDECREF(box->world);
+    free(box);
+}
+
+static int history_lives(const history_box *box)
+{
+    const world_box *world = PyCapsule_GetPointer(box->world, world_name);
+    return box->history && world && world->world;
+}
+
+static void release_history(PyObject *capsule)
+{
+    history_box *box = PyCapsule_GetPointer(capsule, history_name);
+    if (!box) return;
+    if (history_lives(box)) (void)fe_history_destroy(box->history);
+    Py_DECREF(box->world);
     free(box);
 }
 
@@ -144,6 +165,20 @@ static PyObject *new_store(fe_store *store, PyObject *world)
     return capsule;
 }
 
+static PyObject *new_history(fe_history *history, PyObject *world)
+{
+    history_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, history_name, release_history) : PyErr_NoMemory();
+    if (capsule) {
+        box->history = history;
+        box->world = Py_NewRef(world);
+    } else {
+        (void)fe_history_destroy(history);
+        free(box);
+    }
+    return capsule;
+}
+
 static void *box_of(PyObject *object, const char *name, const char *what)
 {
     if (PyCapsule_IsValid(object, name)) return PyCapsule_GetPointer(object, name);
@@ -183,6 +218,19 @@ static store_box *store_of(PyObject *object)
 {
     store_box *box = box_of(object, store_name, "store");
     return box && store_lives(box) ? box : NULL;
+}
+
+static int may_not_use(const history_box *box)
+{
+    if (history_lives(box)) return 0;
+    (void)fails(FE_ERROR_STALE, "the history is closed, or its world is");
+    return 1;
+}
+
+static history_box *history_of(PyObject *object)
+{
+    history_box *box = box_of(object, history_name, "history");
+    return box && !may_not_use(box) ? box : NULL;
 }
 
 /// Makes a world hold a reference to what must not go before it.

@@ -35,8 +35,10 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 
 // ---- worlds, pools, stores: `call` keeps what the arguments borrow, so that it is released whatever fails -----------
 
-%typemap(arginit) fe_world *, const fe_world *, fe_store *, const fe_store * "begin_call(&call$argnum);"
-%typemap(freearg) fe_world *, const fe_world *, fe_store *, const fe_store * "end_call(&call$argnum);"
+%typemap(arginit) fe_world *, const fe_world *, fe_store *, const fe_store *, fe_history *, const fe_history *
+    "begin_call(&call$argnum);"
+%typemap(freearg) fe_world *, const fe_world *, fe_store *, const fe_store *, fe_history *, const fe_history *
+    "end_call(&call$argnum);"
 %typemap(in) fe_world * (world_box *box = 0, call_state call) {
     box = world_of($input);
     if (!box) SWIG_fail;
@@ -84,6 +86,20 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 %typemap(check) fe_store *store, const fe_store *store "if (given$argnum && !store_lives(given$argnum)) SWIG_fail;"
 %typemap(argout) fe_store *store %{
     if (strcmp("$symname", "store_destroy") == 0 && given$argnum) given$argnum->store = NULL;
+%}
+
+%typemap(in, numinputs=0) fe_history **out_history (fe_history *made = 0) "$1 = &made;"
+%typemap(argout) fe_history **out_history %{ $result = new_history(*$1, swig_obj[0]); %}
+%typemap(in) fe_history *history (history_box *given = 0, call_state call) {
+    given = history_of($input);
+    if (!given) SWIG_fail;
+    $1 = given->history;
+}
+%typemap(in) const fe_history *history = fe_history *history;
+// when all arguments are converted, as above
+%typemap(check) fe_history *history, const fe_history *history "if (may_not_use(given$argnum)) SWIG_fail;"
+%typemap(argout) fe_history *history %{
+    if (strcmp("$symname", "history_destroy") == 0) given$argnum->history = NULL;
 %}
 
 // The GIL is given back in the step, and where a call may take long and only reads. What the other threads must not do
@@ -172,6 +188,7 @@ static PyObject *pair_record(const fe_filter_pair *pair)
 FE_INTEGER(int32_t, INT32_MIN, INT32_MAX)
 FE_INTEGER(uint32_t, 0, UINT32_MAX)
 FE_INTEGER(uint64_t, 0, UINT64_MAX)
+FE_INTEGER(int64_t, INT64_MIN, INT64_MAX)
 FE_INTEGER(fe_handle, 0, UINT64_MAX)
 
 // ---- values that come out -------------------------------------------------------------------------------------------
@@ -318,6 +335,7 @@ FE_OUTPUT(float *out_floats, (ends_with("$symname", "transforms_f32") ? 7 : 6) *
 FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 FE_OUTPUT(fe_vec3 *out_vertices, sizeof *$1, "f")
 FE_OUTPUT(fe_hull_face *out_faces, sizeof *$1, "")
+FE_OUTPUT(fe_history_frame *out_frames, sizeof *$1, "")
 FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
 %typemap(check) const float *heights "if (heights_fit(call1.count, arg5, arg6)) SWIG_fail;"
 %typemap(check) float *out_heights "if (heights_fit(call1.capacity, arg5, arg6)) SWIG_fail;"
@@ -448,6 +466,7 @@ FE_OUTPUT(fe_asset_key *out_keys, sizeof *$1, "")
 // read from packed buffers, see records.py
 %ignore fe_ray;
 %ignore fe_path;
+%ignore fe_history_frame;
 %ignore fe_hull_face;
 %ignore fe_pair_event;
 %ignore fe_body_event;

@@ -1,5 +1,6 @@
 // body.c - the API of bodies: life, pose, mass, locks, switches. Velocities and forces are in body_motion.c.
 #include "api/check.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/bodies.h"
 #include "world/handles.h"
@@ -70,6 +71,7 @@ fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_b
     FE_TRY(read_body_def(function, def, &full));
     FE_TRY(fe__report(function, fe__reserve_bodies(world, 1)));
     *out_body = create(world, full);
+    FE_RECORD(body_create, def, out_body);
     return FE_OK;
 }
 
@@ -93,6 +95,7 @@ fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t
         (void)read_body_def(function, fe__at_const(defs, stride, i), &full);
         out_bodies[i] = create(world, full);
     }
+    FE_RECORD(body_create_many, defs, stride, count, out_bodies);
     return FE_OK;
 }
 
@@ -108,6 +111,7 @@ fe_result fe_body_destroy(fe_world *world, fe_body body)
     FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     destroy(world, index);
+    FE_RECORD(body_destroy, body);
     return FE_OK;
 }
 
@@ -136,6 +140,7 @@ fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t c
     for (int32_t i = 0; i < marked; ++i) world->bodies[fe__id_slot_of(bodies[i])].flags &= ~(uint32_t)FE__BODY_STARTED;
     FE_TRY(result);
     for (int32_t i = 0; i < count; ++i) destroy(world, fe__id_slot_of(bodies[i]));
+    FE_RECORD(body_destroy_many, bodies, count);
     return FE_OK;
 }
 
@@ -171,7 +176,9 @@ fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__body_set_type(world, index, type);
     fe__fp_leave(fp);
-    return fe__report(function, result);
+    FE_TRY(fe__report(function, result));
+    FE_RECORD(body_set_type, body, type);
+    return FE_OK;
 }
 
 fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type)
@@ -192,6 +199,7 @@ fe_result fe_body_set_transform(fe_world *world, fe_body body, const fe_transfor
     fe__fp_state fp = fe__fp_enter();
     fe__body_set_transform(world, index, &copy);
     fe__fp_leave(fp);
+    FE_RECORD(body_set_transform, body, transform);
     return FE_OK;
 }
 
@@ -271,6 +279,7 @@ fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_dat
     FE_TRY(read_mass_data(function, data, &copy));
     FE_TRY(check_dynamic(function, world, index, body));
     give_mass(world, index, &copy);
+    FE_RECORD(body_set_mass_data, body, data);
     return FE_OK;
 }
 
@@ -308,6 +317,7 @@ fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass)
     FE_CHECK_FLOAT(scaled.inertia.y, FE_LEAST_INERTIA, FE_MAX_INERTIA);
     FE_CHECK_FLOAT(scaled.inertia.z, FE_LEAST_INERTIA, FE_MAX_INERTIA);
     give_mass(world, index, &scaled);
+    FE_RECORD(body_set_mass, body, mass);
     return FE_OK;
 }
 
@@ -330,6 +340,7 @@ fe_result fe_body_reset_mass(fe_world *world, fe_body body)
     fe__body_disturb(world, index);
     fe__body_update_mass(world, index);
     fe__fp_leave(fp);
+    FE_RECORD(body_reset_mass, body);
     return FE_OK;
 }
 
@@ -344,6 +355,7 @@ fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes,
     fe__fp_state fp = fe__fp_enter();
     fe__body_set_locks(world, index, linear_axes, angular_axes);
     fe__fp_leave(fp);
+    FE_RECORD(body_set_locks, body, linear_axes, angular_axes);
     return FE_OK;
 }
 
@@ -367,6 +379,7 @@ fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float
     FE_CHECK_FLOAT(angular, 0.0f, FE_MAX_VALUE);
     world->bodies[index].linear_damping = linear;
     world->bodies[index].angular_damping = angular;
+    FE_RECORD(body_set_damping, body, linear, angular);
     return FE_OK;
 }
 
@@ -389,6 +402,7 @@ fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
     if (world->bodies[index].gravity_scale == scale) return FE_OK;
     world->bodies[index].gravity_scale = scale;
     fe__body_disturb(world, index);
+    FE_RECORD(body_set_gravity_scale, body, scale);
     return FE_OK;
 }
 
@@ -403,21 +417,27 @@ fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *
 
 // ---- sleep ---------------------------------------------------------------------------------------------------------
 
-fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
+static fe_result put_to_sleep(const char *function, fe_world *world, int32_t index, fe_body body)
 {
-    FE_WRITE(world);
-    FE_FIND_BODY(index, body);
-    FE_CHECK_BOOL(awake);
-    if (awake) {
-        fe__body_disturb(world, index);
-        return FE_OK;
-    }
     if (world->bodies[index].awake_index < 0) return FE_OK;
     if (!world->tuning.sleep_enabled)
         return fe__fail(function, FE_ERROR_STATE, "sleep_enabled of the world's tuning is 0");
     fe_result result = fe__put_to_sleep(world, index);
     if (result != FE_ERROR_STATE) return fe__report(function, result);
     return fe__fail(function, result, "body 0x%llx, or one that it touches, is not allowed to sleep now", body);
+}
+
+fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
+{
+    FE_WRITE(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BOOL(awake);
+    if (awake)
+        fe__body_disturb(world, index);
+    else
+        FE_TRY(put_to_sleep(function, world, index, body));
+    FE_RECORD(body_set_awake, body, awake);
+    return FE_OK;
 }
 
 fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake)
@@ -442,6 +462,7 @@ fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allow
     FE_CHECK_BOOL(allowed);
     set_flag(world, index, FE__BODY_SLEEP_ALLOWED, allowed);
     if (!allowed) fe__body_disturb(world, index);
+    FE_RECORD(body_set_sleep_allowed, body, allowed);
     return FE_OK;
 }
 
@@ -460,6 +481,7 @@ fe_result fe_body_set_sleep_threshold(fe_world *world, fe_body body, float speed
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(speed, 0.0f, FE_MAX_SPEED);
     world->bodies[index].sleep_threshold = speed;
+    FE_RECORD(body_set_sleep_threshold, body, speed);
     return FE_OK;
 }
 
@@ -482,7 +504,9 @@ fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__body_set_enabled(world, index, enabled);
     fe__fp_leave(fp);
-    return fe__report(function, result);
+    FE_TRY(fe__report(function, result));
+    FE_RECORD(body_set_enabled, body, enabled);
+    return FE_OK;
 }
 
 fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_enabled)
@@ -501,6 +525,7 @@ fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet)
     FE_CHECK_BOOL(bullet);
     set_flag(world, index, FE__BODY_BULLET, bullet);
     world->has_bullets |= bullet;
+    FE_RECORD(body_set_bullet, body, bullet);
     return FE_OK;
 }
 
@@ -518,6 +543,7 @@ fe_result fe_body_set_user_data(fe_world *world, fe_body body, uint64_t user_dat
     FE_WRITE(world);
     FE_FIND_BODY(index, body);
     world->bodies[index].user_data = user_data;
+    FE_RECORD(body_set_user_data, body, user_data);
     return FE_OK;
 }
 
@@ -543,6 +569,7 @@ fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
         if (world->shapes[shape].parent < 0) fe__shape_set_filter(world, shape, layer, mask, group);
     fe__fp_leave(fp);
+    FE_RECORD(body_set_filter, body, layer, mask, group);
     return FE_OK;
 }
 

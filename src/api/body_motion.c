@@ -1,5 +1,6 @@
 // body_motion.c - the API of velocities, forces and impulses.
 #include "api/check.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/motion.h"
 #include "world/pose.h"
@@ -21,6 +22,7 @@ fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_ve
     fe__fp_state fp = fe__fp_enter();
     fe__body_set_velocity(world, index, velocity, NULL);
     fe__fp_leave(fp);
+    FE_RECORD(body_set_linear_velocity, body, velocity);
     return FE_OK;
 }
 
@@ -42,6 +44,7 @@ fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_v
     fe__fp_state fp = fe__fp_enter();
     fe__body_set_velocity(world, index, NULL, velocity);
     fe__fp_leave(fp);
+    FE_RECORD(body_set_angular_velocity, body, velocity);
     return FE_OK;
 }
 
@@ -99,6 +102,7 @@ fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *
     FE_CHECK_VEC3(&needed_velocity, FE_MAX_SPEED);
     FE_CHECK_VEC3(&needed_spin, FE_MAX_SPEED);
     fe__body_set_velocity(world, index, &needed_velocity, &needed_spin);
+    FE_RECORD(body_set_target, body, target, seconds);
     return FE_OK;
 }
 
@@ -127,6 +131,7 @@ fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force)
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(force, FE_MAX_FORCE);
     push(world, index, *force, fe__vec3(0.0f, 0.0f, 0.0f));
+    FE_RECORD(body_add_force, body, force);
     return FE_OK;
 }
 
@@ -139,6 +144,7 @@ fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *for
     fe_vec3 torque = moment_of(&world->bodies[index], force, point);
     FE_CHECK_VEC3(&torque, FE_MAX_FORCE);
     push(world, index, *force, torque);
+    FE_RECORD(body_add_force_at, body, force, point);
     return FE_OK;
 }
 
@@ -148,6 +154,7 @@ fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torqu
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(torque, FE_MAX_FORCE);
     push(world, index, fe__vec3(0.0f, 0.0f, 0.0f), *torque);
+    FE_RECORD(body_add_torque, body, torque);
     return FE_OK;
 }
 
@@ -172,7 +179,9 @@ fe_result fe_body_add_impulse(fe_world *world, fe_body body, const fe_vec3 *impu
     FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
-    return strike(function, world, index, *impulse, fe__vec3(0.0f, 0.0f, 0.0f));
+    FE_TRY(strike(function, world, index, *impulse, fe__vec3(0.0f, 0.0f, 0.0f)));
+    FE_RECORD(body_add_impulse, body, impulse);
+    return FE_OK;
 }
 
 fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *impulse, const fe_dvec3 *point)
@@ -181,7 +190,9 @@ fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *i
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
-    return strike(function, world, index, *impulse, moment_of(&world->bodies[index], impulse, point));
+    FE_TRY(strike(function, world, index, *impulse, moment_of(&world->bodies[index], impulse, point)));
+    FE_RECORD(body_add_impulse_at, body, impulse, point);
+    return FE_OK;
 }
 
 fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse)
@@ -189,5 +200,7 @@ fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_ve
     FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
-    return strike(function, world, index, fe__vec3(0.0f, 0.0f, 0.0f), *impulse);
+    FE_TRY(strike(function, world, index, fe__vec3(0.0f, 0.0f, 0.0f), *impulse));
+    FE_RECORD(body_add_angular_impulse, body, impulse);
+    return FE_OK;
 }

@@ -3,6 +3,7 @@
 // Writing is all or none: everything is checked before the first body changes. A body may be named twice: its last
 // value stands, forces add up.
 #include "api/check.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/bodies.h"
 #include "world/handles.h"
@@ -102,6 +103,7 @@ fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const 
         fe__body_set_transform(world, fe__id_slot_of(bodies[i]), &transform);
     }
     fe__fp_leave(fp);
+    FE_RECORD(world_set_transforms, bodies, transforms, stride, count);
     return FE_OK;
 }
 
@@ -164,6 +166,7 @@ fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const 
         fe__body_set_velocity(world, fe__id_slot_of(bodies[i]), &velocity.linear, &velocity.angular);
     }
     fe__fp_leave(fp);
+    FE_RECORD(world_set_velocities, bodies, floats, stride, count);
     return FE_OK;
 }
 
@@ -187,5 +190,6 @@ fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const floa
         if (fe__body_feels_forces(&world->bodies[index])) fe__body_add_force(world, index, force.linear, force.angular);
     }
     fe__fp_leave(fp);
+    FE_RECORD(world_add_forces, bodies, floats, stride, count);
     return FE_OK;
 }

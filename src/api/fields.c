@@ -108,6 +108,21 @@ DEFINE(fe_restore_options)
 #define THIS fe_snapshot_info
 DEFINE(fe_snapshot_info)
 #undef THIS
+#define THIS fe_history_def
+DEFINE(fe_history_def)
+#undef THIS
 #define THIS fe_draw_options
 DEFINE(fe_draw_options)
+#undef THIS
+#define THIS fe_recorder_def
+DEFINE(fe_recorder_def)
+#undef THIS
+#define THIS fe_player_def
+DEFINE(fe_player_def)
+#undef THIS
+#define THIS fe_player_info
+DEFINE(fe_player_info)
+#undef THIS
+#define THIS fe_divergence
+DEFINE(fe_divergence)
 #undef THIS

@@ -1,5 +1,6 @@
 // heightfield.c - the API of heightfields: assets of a store. From any thread.
 #include "api/store.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/asset_users.h"
 
@@ -108,13 +109,15 @@ static fe_result set_heights(const char *function, fe_store *store, fe_asset ass
     FE_TRY(find_part(function, store, asset, part, &index));
     FE_CHECK_POINTER(heights);
     FE_TRY(check_heights(function, heights, (int64_t)part->rows * part->columns));
-    fe_result entered = fe__asset_enter_worlds(store, index);
+    const fe__assets_entered users = {&index, 1, NULL};
+    fe_result entered = fe__assets_enter_worlds(store, &users);
     if (entered != FE_OK) {
         const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
         return fe__fail(function, entered, "a world that uses asset 0x%llx %s; nothing was changed", asset, why);
     }
     fe__heightfield_edit(store, index, part, heights);
-    fe__asset_leave_worlds(store, index);
+    fe__record_heights(store, index, part->row, part->column, part->rows, part->columns, heights);
+    fe__assets_leave_worlds(store, &users);
     return FE_OK;
 }
 

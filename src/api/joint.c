@@ -1,6 +1,7 @@
 // joint.c - the API of joints: life, change, readings. Definitions are checked in joint_def.c, made from the world in
 // joint_at.c.
 #include "api/joint_def.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "world/handles.h"
 #include "world/joint_list.h"
@@ -13,8 +14,6 @@ static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint
 // ---- birth ---------------------------------------------------------------------------------------------------------
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *def, fe_joint *out_joint)
 {
-    if (out_joint) *out_joint = 0;
-    FE_WRITE_ALONE_AS(function, world);
     FE_CHECK_POINTER(out_joint);
     fe__joint_any full;
     fe__joint_defaults(type, &full);
@@ -33,27 +32,47 @@ static fe_result create(const char *function, fe_world *world, int32_t type, con
 
 fe_result fe_distance_joint_create(fe_world *world, const fe_distance_joint_def *def, fe_joint *out_joint)
 {
-    return create(__func__, world, FE_JOINT_DISTANCE, def, out_joint);
+    if (out_joint) *out_joint = 0;
+    FE_WRITE_ALONE(world);
+    FE_TRY(create(function, world, FE_JOINT_DISTANCE, def, out_joint));
+    FE_RECORD(distance_joint_create, def, out_joint);
+    return FE_OK;
 }
 
 fe_result fe_ball_joint_create(fe_world *world, const fe_ball_joint_def *def, fe_joint *out_joint)
 {
-    return create(__func__, world, FE_JOINT_BALL, def, out_joint);
+    if (out_joint) *out_joint = 0;
+    FE_WRITE_ALONE(world);
+    FE_TRY(create(function, world, FE_JOINT_BALL, def, out_joint));
+    FE_RECORD(ball_joint_create, def, out_joint);
+    return FE_OK;
 }
 
 fe_result fe_hinge_joint_create(fe_world *world, const fe_hinge_joint_def *def, fe_joint *out_joint)
 {
-    return create(__func__, world, FE_JOINT_HINGE, def, out_joint);
+    if (out_joint) *out_joint = 0;
+    FE_WRITE_ALONE(world);
+    FE_TRY(create(function, world, FE_JOINT_HINGE, def, out_joint));
+    FE_RECORD(hinge_joint_create, def, out_joint);
+    return FE_OK;
 }
 
 fe_result fe_fixed_joint_create(fe_world *world, const fe_fixed_joint_def *def, fe_joint *out_joint)
 {
-    return create(__func__, world, FE_JOINT_FIXED, def, out_joint);
+    if (out_joint) *out_joint = 0;
+    FE_WRITE_ALONE(world);
+    FE_TRY(create(function, world, FE_JOINT_FIXED, def, out_joint));
+    FE_RECORD(fixed_joint_create, def, out_joint);
+    return FE_OK;
 }
 
 fe_result fe_configurable_joint_create(fe_world *world, const fe_configurable_joint_def *def, fe_joint *out_joint)
 {
-    return create(__func__, world, FE_JOINT_CONFIGURABLE, def, out_joint);
+    if (out_joint) *out_joint = 0;
+    FE_WRITE_ALONE(world);
+    FE_TRY(create(function, world, FE_JOINT_CONFIGURABLE, def, out_joint));
+    FE_RECORD(configurable_joint_create, def, out_joint);
+    return FE_OK;
 }
 
 // ---- change --------------------------------------------------------------------------------------------------------
@@ -85,7 +104,6 @@ fe_result fe__change_joint(const char *function, fe_world *world, int32_t index,
 
 static fe_result set(const char *function, fe_world *world, int32_t type, fe_joint joint, const void *def)
 {
-    FE_WRITE_AS(function, world);
     FE_FIND_JOINT(index, joint);
     FE_TRY(check_type(function, world, index, type));
     fe__joint_any full;
@@ -110,24 +128,39 @@ static fe_result get(const char *function, const fe_world *world, int32_t type, 
 
 fe_result fe_distance_joint_set(fe_world *world, fe_joint joint, const fe_distance_joint_def *def)
 {
-    return set(__func__, world, FE_JOINT_DISTANCE, joint, def);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, FE_JOINT_DISTANCE, joint, def));
+    FE_RECORD(distance_joint_set, joint, def);
+    return FE_OK;
 }
 fe_result fe_ball_joint_set(fe_world *world, fe_joint joint, const fe_ball_joint_def *def)
 {
-    return set(__func__, world, FE_JOINT_BALL, joint, def);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, FE_JOINT_BALL, joint, def));
+    FE_RECORD(ball_joint_set, joint, def);
+    return FE_OK;
 }
 fe_result fe_hinge_joint_set(fe_world *world, fe_joint joint, const fe_hinge_joint_def *def)
 {
-    return set(__func__, world, FE_JOINT_HINGE, joint, def);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, FE_JOINT_HINGE, joint, def));
+    FE_RECORD(hinge_joint_set, joint, def);
+    return FE_OK;
 }
 fe_result fe_fixed_joint_set(fe_world *world, fe_joint joint, const fe_fixed_joint_def *def)
 {
-    return set(__func__, world, FE_JOINT_FIXED, joint, def);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, FE_JOINT_FIXED, joint, def));
+    FE_RECORD(fixed_joint_set, joint, def);
+    return FE_OK;
 }
 
 fe_result fe_configurable_joint_set(fe_world *world, fe_joint joint, const fe_configurable_joint_def *def)
 {
-    return set(__func__, world, FE_JOINT_CONFIGURABLE, joint, def);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, FE_JOINT_CONFIGURABLE, joint, def));
+    FE_RECORD(configurable_joint_set, joint, def);
+    return FE_OK;
 }
 
 fe_result fe_distance_joint_get(const fe_world *world, fe_joint joint, fe_distance_joint_def *out_def)
@@ -165,7 +198,9 @@ fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
     full.common.struct_size = size;
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_common(function, &full.common));
-    return fe__change_joint(function, world, index, &full);
+    FE_TRY(fe__change_joint(function, world, index, &full));
+    FE_RECORD(joint_set, joint, def);
+    return FE_OK;
 }
 
 fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_def)
@@ -188,7 +223,9 @@ fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled)
     fe__joint_describe(world, index, &full);
     if (full.common.enabled == enabled) return FE_OK;
     full.common.enabled = enabled;
-    return fe__change_joint(function, world, index, &full);
+    FE_TRY(fe__change_joint(function, world, index, &full));
+    FE_RECORD(joint_set_enabled, joint, enabled);
+    return FE_OK;
 }
 
 fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *out_enabled)
@@ -205,6 +242,7 @@ fe_result fe_joint_set_user_data(fe_world *world, fe_joint joint, uint64_t user_
     FE_WRITE(world);
     FE_FIND_JOINT(index, joint);
     world->joint_records[index].user_data = user_data;
+    FE_RECORD(joint_set_user_data, joint, user_data);
     return FE_OK;
 }
 
@@ -224,6 +262,7 @@ fe_result fe_joint_destroy(fe_world *world, fe_joint joint)
     fe__fp_state fp = fe__fp_enter();
     fe__joint_destroy(world, index);
     fe__fp_leave(fp);
+    FE_RECORD(joint_destroy, joint);
     return FE_OK;
 }
 

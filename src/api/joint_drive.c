@@ -1,5 +1,6 @@
 // joint_drive.c - the API of what a game changes each step: speed of a motor, target of a spring, nothing else.
 #include "api/joint_def.h"
+#include "api/record.h"
 #include "world/joint_state.h"
 #include "world/joints.h"
 
@@ -41,7 +42,6 @@ typedef float *(*field_of)(fe__joint_any *def, int32_t type, int32_t dof);
 static fe_result set(const char *function, fe_world *world, fe_joint joint, int32_t dof, field_of find,
                      const char *name, float value)
 {
-    FE_WRITE_AS(function, world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
     FE_TRY(fe__check_number(function, name, "", (double)value, (double)-FE_MAX_SPEED, (double)FE_MAX_SPEED));
@@ -60,12 +60,18 @@ static fe_result set(const char *function, fe_world *world, fe_joint joint, int3
 
 fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed)
 {
-    return set(__func__, world, joint, dof, motor_speed_of, "speed", speed);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, joint, dof, motor_speed_of, "speed", speed));
+    FE_RECORD(joint_set_motor_speed, joint, dof, speed);
+    return FE_OK;
 }
 
 fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target)
 {
-    return set(__func__, world, joint, dof, target_of, "target", target);
+    FE_WRITE(world);
+    FE_TRY(set(function, world, joint, dof, target_of, "target", target));
+    FE_RECORD(joint_set_target, joint, dof, target);
+    return FE_OK;
 }
 
 fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_quat *target)
@@ -79,5 +85,7 @@ fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_qua
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     full.ball.target = *target;
-    return fe__change_joint(function, world, index, &full);
+    FE_TRY(fe__change_joint(function, world, index, &full));
+    FE_RECORD(ball_joint_set_target, joint, target);
+    return FE_OK;
 }

@@ -1,5 +1,6 @@
 // mesh.c - the API of meshes: assets of a store. From any thread.
 #include "api/store.h"
+#include "api/record.h"
 #include "core/fp_state.h"
 #include "store/mesh_asset.h"
 #include "world/asset_users.h"
@@ -242,13 +243,15 @@ static fe_result set_materials(const char *function, fe_store *store, fe_asset m
     FE_TRY(fe__find_asset_of(function, "mesh", store, FE__ASSET_MESH, mesh, &index));
     int32_t there = fe__store_asset(store, index)->material_count;
     FE_CHECK_INT(count, there, there);
-    fe_result entered = fe__asset_enter_worlds(store, index);
+    const fe__assets_entered users = {&index, 1, NULL};
+    fe_result entered = fe__assets_enter_worlds(store, &users);
     if (entered != FE_OK) {
         const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
         return fe__fail(function, entered, "a world that uses mesh 0x%llx %s; nothing was changed", mesh, why);
     }
     fe__mesh_edit_materials(store, index, materials, stride);
-    fe__asset_leave_worlds(store, index);
+    fe__record_materials(store, index);
+    fe__assets_leave_worlds(store, &users);
     return FE_OK;
 }
 

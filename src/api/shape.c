@@ -1,5 +1,6 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/asset_form.h"
+#include "api/record.h"
 #include "api/geometry.h"
 
 #include <inttypes.h>
@@ -118,8 +119,11 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
     fe__form form;
     FE_TRY(fe__read_geometry(function, world->store, geometry, &form));
     fe_result result = create_shape(function, world, index, &full, &form, out_shape);
+    if (result == FE_OK && world->recorder) fe__record_form(world->recorder, &form);
     fe__let_go_of_asset(world->store, &form);
-    return result;
+    FE_TRY(result);
+    FE_RECORD(shape_create, body, def, geometry, out_shape);
+    return FE_OK;
 }
 
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
@@ -129,6 +133,7 @@ fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
     fe__fp_state fp = fe__fp_enter();
     fe__shape_destroy(world, index);
     fe__fp_leave(fp);
+    FE_RECORD(shape_destroy, shape);
     return FE_OK;
 }
 
@@ -167,8 +172,11 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
     fe__form form;
     FE_TRY(fe__read_geometry(function, world->store, geometry, &form));
     fe_result result = set_form(function, world, index, &form);
+    if (result == FE_OK && world->recorder) fe__record_form(world->recorder, &form);
     fe__let_go_of_asset(world->store, &form);
-    return result;
+    FE_TRY(result);
+    FE_RECORD(shape_set_geometry, shape, geometry);
+    return FE_OK;
 }
 
 fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)
@@ -191,6 +199,7 @@ fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *fr
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_local_pose(world, index, frame->position, frame->rotation);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_frame, shape, frame);
     return FE_OK;
 }
 
@@ -212,6 +221,7 @@ fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_density(world, index, density);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_density, shape, density);
     return FE_OK;
 }
 
@@ -234,6 +244,7 @@ fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_materi
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_material(world, index, material);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_material, shape, material);
     return FE_OK;
 }
 
@@ -254,6 +265,7 @@ fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const f
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_surface_velocity(world, index, *velocity);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_surface_velocity, shape, velocity);
     return FE_OK;
 }
 
@@ -276,6 +288,7 @@ fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, u
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_filter(world, index, layer, mask, group);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_filter, shape, layer, mask, group);
     return FE_OK;
 }
 
@@ -301,6 +314,7 @@ fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enab
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_judged(world, index, enabled);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_pair_filter, shape, enabled);
     return FE_OK;
 }
 
@@ -326,6 +340,7 @@ fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled,
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_one_way(world, index, enabled, direction);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_one_way, shape, enabled, direction);
     return FE_OK;
 }
 
@@ -348,6 +363,7 @@ fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_trigger(world, index, trigger);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_trigger, shape, trigger);
     return FE_OK;
 }
 
@@ -368,6 +384,7 @@ fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_events(world, index, events);
     fe__fp_leave(fp);
+    FE_RECORD(shape_set_events, shape, events);
     return FE_OK;
 }
 
@@ -385,6 +402,7 @@ fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, uint64_t user_
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     world->shapes[index].user_data = user_data;
+    FE_RECORD(shape_set_user_data, shape, user_data);
     return FE_OK;
 }
 

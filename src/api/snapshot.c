@@ -1,5 +1,6 @@
 // snapshot.c - the API of snapshots: a world as bytes, and back.
 #include "api/joint_def.h"
+#include "api/record.h"
 #include "api/store.h"
 #include "api/world.h"
 #include "core/fp_state.h"
@@ -238,7 +239,9 @@ static fe_result restore(const char *function, fe_world *world, const fe_restore
 fe_result fe_world_restore(fe_world *world, const fe_restore_options *options, const void *bytes, int64_t size)
 {
     FE_WRITE_ALONE(world);
-    return restore(function, world, options, bytes, size);
+    fe_result result = restore(function, world, options, bytes, size);
+    if (result >= 0 && world->recorder) fe__record_jump(world->recorder);
+    return result;
 }
 
 fe_result fe_world_load(const fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
@@ -298,7 +301,7 @@ static fe_result check_all(const char *function, fe__snapshot *snapshot)
     const fe_restore_options options = {.struct_size = sizeof options};
     fe_world *world;
     const fe_world_def def = {
-        .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_PLAIN, .number = 1};
+        .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_AUTO, .number = 1};
     FE_TRY(fe__create_world(function, &def, &world));
     world->pair_filter = accept;
     fe_result result = restore_opened(function, world, &options, snapshot);

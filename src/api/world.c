@@ -1,6 +1,9 @@
 // world.c - the API of worlds: creation, step, settings, counters.
 #include "api/world.h"
+#include "api/record.h"
 #include "core/fp_state.h"
+#include "record/recording.h"
+#include "state/history.h"
 #include "step/step.h"
 #include "world/handles.h"
 #include "world/hash.h"
@@ -50,7 +53,7 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     FE_CHECK_INT(full->worker_count, 1, FE_MAX_WORKERS);
     FE_CHECK_VEC3(&full->gravity, FE_MAX_SPEED);
     FE_CHECK_INT(full->substeps, 1, FE_MAX_SUBSTEPS);
-    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_WASM);
     FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
     if (full->allocator) {
         FE_TRY(fe__read_allocator(function, full->allocator, &whole->allocator));
@@ -97,6 +100,8 @@ fe_result fe_world_destroy(fe_world *world)
         return fe__refuse_writer(function);
     }
     inside = NULL; // its word goes with it
+    if (world->recorder) fe__recorder_detach(world->recorder, FE_END);
+    fe__histories_end(world);
     fe__world_destroy(world);
     return FE_OK;
 }
@@ -110,8 +115,11 @@ fe_result fe_world_step(fe_world *world, float dt)
     if (!fe__owner_be_alone(inside, FE__STEP)) {
         return fe__refuse_writer(function);
     }
+    if (world->recorder) fe__record_step_begin(world->recorder);
+    inside->entries -= (uint64_t)fe__world_rests(world); // nothing is written then
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, fe__counted_dt(dt));
+    if (world->recorder) fe__record_step_end(world->recorder, dt, result);
     fe__fp_leave(fp);
     return fe__report(function, result);
 }
@@ -133,6 +141,7 @@ fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
     int32_t same = gravity->x == world->gravity.x && gravity->y == world->gravity.y && gravity->z == world->gravity.z;
     world->gravity = *gravity;
     if (!same) wake_all(world);
+    FE_RECORD(world_set_gravity, gravity);
     return FE_OK;
 }
 
@@ -149,6 +158,7 @@ fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
     FE_WRITE(world);
     FE_CHECK_INT(substeps, 1, FE_MAX_SUBSTEPS);
     world->substeps = substeps;
+    FE_RECORD(world_set_substeps, substeps);
     return FE_OK;
 }
 
@@ -164,6 +174,7 @@ fe_result fe_world_set_user_data(fe_world *world, uint64_t user_data)
 {
     FE_WRITE(world);
     world->user_data = user_data;
+    FE_RECORD(world_set_user_data, user_data);
     return FE_OK;
 }
 
@@ -228,10 +239,12 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
     int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
     if (wakes) wake_all(world);
-    if (same_reach) return FE_OK;
-    fe__fp_state fp = fe__fp_enter();
-    renew_boxes(world);
-    fe__fp_leave(fp);
+    if (!same_reach) {
+        fe__fp_state fp = fe__fp_enter();
+        renew_boxes(world);
+        fe__fp_leave(fp);
+    }
+    FE_RECORD(world_set_tuning, tuning);
     return FE_OK;
 }
 
@@ -250,7 +263,9 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
     FE_FIND_BODY(index_b, b);
     FE_CHECK_BOOL(ignore);
     if (a == b) return fe__fail(function, FE_ERROR_ARGUMENT, "a and b are the same body 0x%llx", a);
-    return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
+    FE_TRY(fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore)));
+    FE_RECORD(world_ignore_collision, a, b, ignore);
+    return FE_OK;
 }
 
 fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user)
@@ -259,6 +274,7 @@ fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void 
     world->pair_filter = filter;
     world->pair_filter_user = user;
     fe__world_judge_anew(world);
+    if (world->recorder) fe__record_filter(world->recorder);
     return FE_OK;
 }
 
@@ -280,7 +296,9 @@ fe_result fe_world_optimize(fe_world *world)
     fe__tree *trees[] = {&world->static_tree, &world->moving_tree};
     int32_t built = fe__trees_rebuild(trees, 2, &world->memory, 1);
     fe__fp_leave(fp);
-    return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
+    FE_TRY(built ? FE_OK : fe__report(function, FE_ERROR_MEMORY));
+    if (world->recorder) fe__record_world_optimize(world->recorder);
+    return FE_OK;
 }
 
 // ---- the defaults of what is read into, and of what the host gives -------------------------------------------------

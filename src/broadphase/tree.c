@@ -2,7 +2,6 @@
 //
 // tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
-#include "core/simd_sets.h"
 
 // Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one
 // of few nodes.
@@ -19,7 +18,7 @@ const fe__tree_kernels *fe__tree_kernels_of(int32_t simd)
         return &fe__tree_kernels_##name;
         FE_EACH_WIDE_SET(CASE)
     default:
-        return &fe__tree_kernels_plain;
+        return &FE_BASE_SET(fe__tree_kernels);
     }
 }
 

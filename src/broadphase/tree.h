@@ -11,6 +11,7 @@
 #define FE_BROADPHASE_TREE_H
 #include "collision/form/form.h"
 #include "core/memory.h"
+#include "core/simd_sets.h"
 
 enum { FE_TREE_WIDTH = 8 };
 #define FE_TREE_EMPTY INT32_MIN
@@ -82,11 +83,11 @@ struct fe__tree_kernels {
                     fe__tree_ray_visit visit, void *context);
     double (*nearest)(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
 };
-extern const fe__tree_kernels fe__tree_kernels_plain;
+extern const fe__tree_kernels FE_BASE_SET(fe__tree_kernels);
 const fe__tree_kernels *fe__tree_kernels_of(int32_t simd); // of a set that was built, else of plain C
 static inline const fe__tree_kernels *fe__kernels_of_tree(const fe__tree *tree)
 {
-    return tree->kernels ? tree->kernels : &fe__tree_kernels_plain;
+    return tree->kernels ? tree->kernels : &FE_BASE_SET(fe__tree_kernels);
 }
 
 // ---- questions -----------------------------------------------------------------------------------------------------

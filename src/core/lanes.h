@@ -2,8 +2,8 @@
 //
 // Two quads of 128 bits, which every 64-bit machine has, so that one compile serves all of them. + - * / and
 // comparisons are the compiler's (vector extensions of gcc and clang); min, max and the sign mask are intrinsics on x86
-// and plain C of the same meaning elsewhere (FE_PLAIN_C forces the latter). Each operation is IEEE and acts on each
-// lane alone: the bits do not depend on the machine.
+// and WebAssembly, and plain C of the same meaning elsewhere (FE_PLAIN_C forces the latter). Each operation is IEEE and
+// acts on each lane alone: the bits do not depend on the machine.
 //     min(a, b) = a < b ? a : b       max(a, b) = a > b ? a : b
 #ifndef FE_CORE_LANES_H
 #define FE_CORE_LANES_H
@@ -17,6 +17,12 @@
 #define FE_LANES_X86 1
 #else
 #define FE_LANES_X86 0
+#if defined(__wasm_simd128__) && !defined(FE_PLAIN_C)
+#include <wasm_simd128.h>
+#define FE_LANES_WASM 1
+#else
+#define FE_LANES_WASM 0
+#endif
 #endif
 
 typedef float fe__quad __attribute__((vector_size(16), may_alias));
@@ -61,6 +67,31 @@ FE_LANES_INLINE fe__quad fe__quad_min(fe__quad x, fe__quad y) { return (fe__quad
 FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return (fe__quad)_mm_max_ps((__m128)x, (__m128)y); }
 // bit i: sign of lane i
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return (uint32_t)_mm_movemask_ps((__m128)x); }
+#elif FE_LANES_WASM // pmin(a, b) = b < a ? b : a, and likewise pmax: the operands change places
+FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y)
+{
+    return (fe__pair)wasm_f64x2_pmin((v128_t)y, (v128_t)x);
+}
+FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y)
+{
+    return (fe__pair)wasm_f64x2_pmax((v128_t)y, (v128_t)x);
+}
+FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair)wasm_f64x2_promote_low_f32x4((v128_t)x); }
+FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x) { return fe__pair_low(__builtin_shufflevector(x, x, 2, 3, 2, 3)); }
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+{
+    return __builtin_shufflevector((fe__quad)wasm_f32x4_demote_f64x2_zero((v128_t)a),
+                                   (fe__quad)wasm_f32x4_demote_f64x2_zero((v128_t)b), 0, 1, 4, 5);
+}
+FE_LANES_INLINE fe__quad fe__quad_min(fe__quad x, fe__quad y)
+{
+    return (fe__quad)wasm_f32x4_pmin((v128_t)y, (v128_t)x);
+}
+FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y)
+{
+    return (fe__quad)wasm_f32x4_pmax((v128_t)y, (v128_t)x);
+}
+FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return wasm_i32x4_bitmask((v128_t)x); }
 #else
 FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y) { return fe__pair_choose(x < y, x, y); }
 FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y) { return fe__pair_choose(x > y, x, y); }

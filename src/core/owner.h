@@ -25,6 +25,7 @@ typedef enum fe__occupation {
 
 typedef struct fe__owner {
     _Atomic uint32_t occupation; // fe__occupation
+    uint64_t entries;            // writers so far: whoever finds the same number knows that nobody wrote meanwhile
 } fe__owner;
 
 enum { FE__READER_DEPTH = 6 }; // a host's task that runs inside a query may query another world, and so on
@@ -41,8 +42,11 @@ typedef struct fe__reader {
 static inline int fe__owner_enter(fe__owner *owner)
 {
     uint32_t nobody = FE__NOBODY;
-    return atomic_compare_exchange_strong_explicit(&owner->occupation, &nobody, FE__WRITER, memory_order_seq_cst,
-                                                   memory_order_relaxed);
+    if (!atomic_compare_exchange_strong_explicit(&owner->occupation, &nobody, FE__WRITER, memory_order_seq_cst,
+                                                 memory_order_relaxed))
+        return 0;
+    ++owner->entries;
+    return 1;
 }
 static inline void fe__owner_leave(fe__owner *owner)
 {

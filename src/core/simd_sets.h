@@ -1,6 +1,8 @@
 // simd_sets.h - which SIMD sets were built, for whoever declares or chooses their kernels.
 //
-// The build defines FE_HAVE_SSE2 and the like for each set that a *.simd.c file is compiled for. Plain C always is.
+// The build defines FE_HAVE_SSE2 and the like for each set that a *.simd.c file is compiled for. Plain C is one of
+// them, unless the build defines FE_WITHOUT_PLAIN: a module of WebAssembly that needs its SIMD to be loaded at all
+// spares it.
 #ifndef FE_CORE_SIMD_SETS_H
 #define FE_CORE_SIMD_SETS_H
 
@@ -25,7 +27,20 @@
 #define FE_AVX512_SET(X)
 #endif
 
+#ifdef FE_HAVE_WASM
+#define FE_WASM_SET(X) X(FE_SIMD_WASM, wasm)
+#else
+#define FE_WASM_SET(X)
+#endif
+
 // X(value of fe_simd, suffix of the symbols) for each set but plain C
-#define FE_EACH_WIDE_SET(X) FE_SSE2_SET(X) FE_NEON_SET(X) FE_AVX2_SET(X) FE_AVX512_SET(X)
+#define FE_EACH_WIDE_SET(X) FE_SSE2_SET(X) FE_NEON_SET(X) FE_WASM_SET(X) FE_AVX2_SET(X) FE_AVX512_SET(X)
+
+// The set that every CPU has on which the build runs
+#ifdef FE_WITHOUT_PLAIN
+#define FE_BASE_SET(kernels) kernels##_wasm
+#else
+#define FE_BASE_SET(kernels) kernels##_plain
+#endif
 
 #endif

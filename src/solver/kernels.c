@@ -19,7 +19,9 @@
             fe__recycle_##name, fe__keep_due_##name, fe__meet_course_##name, THIN(contact_kernels)                    \
     }
 
+#ifndef FE_WITHOUT_PLAIN
 DECLARE(FE_SIMD_PLAIN, plain)
+#endif
 FE_EACH_WIDE_SET(DECLARE)
 
 // The set of FE__THIN_WIDTH lanes: whatever CPU has a wider one has it too
@@ -27,8 +29,10 @@ FE_EACH_WIDE_SET(DECLARE)
 #define THIN(kernels) &fe__##kernels##_sse2
 #elif defined(FE_HAVE_NEON)
 #define THIN(kernels) &fe__##kernels##_neon
+#elif defined(FE_HAVE_WASM)
+#define THIN(kernels) &fe__##kernels##_wasm
 #else
-#define THIN(kernels) &fe__##kernels##_plain
+#define THIN(kernels) &FE_BASE_SET(fe__##kernels)
 #endif
 
 #define FOREST(name) &fe__forest_kernels_##name
@@ -41,12 +45,17 @@ FE_EACH_WIDE_SET(DECLARE)
 
 // widest last
 static const fe__kernels sets[] = {
+#ifndef FE_WITHOUT_PLAIN
     TABLE(FE_SIMD_PLAIN, 4, plain, FOREST(plain)),
+#endif
 #ifdef FE_HAVE_SSE2
     TABLE(FE_SIMD_SSE2, 4, sse2, FOREST(sse2)),
 #endif
 #ifdef FE_HAVE_NEON
     TABLE(FE_SIMD_NEON, 4, neon, FOREST(neon)),
+#endif
+#ifdef FE_HAVE_WASM
+    TABLE(FE_SIMD_WASM, 4, wasm, FOREST(wasm)),
 #endif
 #ifdef FE_HAVE_AVX2
     TABLE(FE_SIMD_AVX2, 8, avx2, THIN(forest_kernels), FOREST(avx2)),
@@ -65,12 +74,13 @@ static int32_t cpu_has(int32_t simd)
     if (simd == FE_SIMD_AVX2) return __builtin_cpu_supports("avx2") != 0;
     if (simd == FE_SIMD_AVX512) return __builtin_cpu_supports("avx512f") != 0;
 #endif
-    return simd == FE_SIMD_PLAIN || simd == FE_SIMD_NEON;
+    return simd == FE_SIMD_PLAIN || simd == FE_SIMD_NEON ||
+           simd == FE_SIMD_WASM; // nobody runs a module that lacks them
 }
 
 static int32_t environment_choice(void)
 {
-    static const char *const names[] = {"auto", "plain", "sse2", "avx2", "avx512", "neon"}; // by fe_simd
+    static const char *const names[] = {"auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm"}; // by fe_simd
     const char *wanted = getenv("FE_SIMD");
     for (int32_t i = 1; wanted && i < (int32_t)(sizeof names / sizeof *names); ++i)
         if (!strcmp(wanted, names[i])) return i;

@@ -3,6 +3,7 @@
 
 #include "solver/graph/graph.h"
 #include "state/assemble.h"
+#include "world/arrays.h"
 #include "world/asset_users.h"
 #include "world/lifetime.h"
 #include "world/step_scratch.h"
@@ -23,26 +24,6 @@ int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, in
 }
 
 // ---- the exchange --------------------------------------------------------------------------------------------------
-// Members of fe_world that are state, from one to another. What lies between them is not: memory, workers, who is
-// inside, filter, kernels, store, clusters, solver, scratch, measures
-typedef struct range {
-    size_t first, end;
-} range;
-#define RANGE(from, to)                                                                \
-    {                                                                                  \
-        offsetof(fe_world, from), offsetof(fe_world, to) + sizeof(((fe_world *)0)->to) \
-    }
-static const range ranges[] = {
-    RANGE(user_data, number),
-    RANGE(gravity, tuning),
-    RANGE(body_ids, shape_capacity),
-    RANGE(uses, use_capacity),
-    RANGE(next_serial, swiftest),
-    RANGE(pair_set, joint_events),
-    RANGE(joint_event_count, joint_event_capacity),
-    RANGE(step_number, last_dt),
-};
-
 static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)
 {
     enum { PIECE = 256 };
@@ -65,19 +46,26 @@ static void renew_forms(fe_world *w)
     }
 }
 
+void fe__world_follow_state(fe_world *world, int32_t burdened)
+{
+    world->solver.burdened = burdened;
+    world->solver.unbuilt = world->awake_linked_count;
+    fe__graph_forget(&world->solver);
+    world->clusters.is_stale = world->joints.forest.changed = 1;
+    atomic_store(&world->scratch->some_deferred, 1);
+}
+
 void fe__snapshot_adopt(fe_world *world, fe_world *beside)
 {
     fe__store_lock(world->store);
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; ++i)
-        swap_bytes((unsigned char *)world + ranges[i].first, (unsigned char *)beside + ranges[i].first,
-                   ranges[i].end - ranges[i].first);
+    for (int32_t i = 0; i < FE__MEMBERS; ++i) {
+        const fe__members *members = fe__state_members + i;
+        swap_bytes((unsigned char *)world + members->first, (unsigned char *)beside + members->first,
+                   members->end - members->first);
+    }
     renew_forms(world);
     fe__store_unlock(world->store);
-    world->solver.burdened = beside->solver.burdened;
-    world->solver.unbuilt = world->awake_linked_count;
-    fe__graph_forget(&world->solver);
-    world->clusters.is_stale = 1;
-    atomic_store(&world->scratch->some_deferred, 1);
+    fe__world_follow_state(world, beside->solver.burdened);
 }
 
 void fe__snapshot_drop(fe_world *world, fe_world *beside)

@@ -47,6 +47,7 @@ typedef struct fe__asset {
     int32_t special;  // a material needs special rows
     int32_t is_keyed; // 1: `key` is that of the content as it is now (asset_key.h)
     uint64_t key[2];
+    int64_t edition;   // of its heights or materials: no two contents of the store have the same. 0: as made
     int32_t users;     // worlds with shapes that have it, and calls that are about to make one; its scaled ones;
                        // parts of compounds
     int32_t destroyed; // by its owner: it goes with its last user
@@ -76,6 +77,7 @@ struct fe_store {
     fe__memory memory;
     fe__entry entry; // in the registry, which counts the worlds
     fe__id_pool ids;
+    int64_t editions; // of all assets so far
     fe__asset *chunks[FE__CHUNKS]; // each written once
     fe__store_member *first_member;
 };

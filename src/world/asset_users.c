@@ -67,8 +67,7 @@ fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset)
     return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
 }
 
-// Has a shape of the world the asset, under whatever scale?
-static int32_t is_used(const fe_world *world, int32_t asset)
+int32_t fe__uses_asset(const fe_world *world, int32_t asset)
 {
     const fe_store *store = world->store;
     if (!fe__store_asset(store, asset)->scaled) return fe__find_asset_use(world, asset) != NULL;
@@ -157,24 +156,31 @@ static fe_result enter(fe_world *world)
     return FE_ERROR_BUSY;
 }
 
-static void leave_until(fe_store *store, int32_t asset, const fe__store_member *end)
+static int32_t uses_any(const fe_world *world, const fe__assets_entered *e)
 {
-    for (fe__store_member *m = store->first_member; m != end; m = m->next)
-        if (is_used(m->world, asset)) fe__owner_leave(&m->world->owner);
+    int32_t used = 0;
+    for (int32_t i = 0; i < e->count && !used && world != e->but; ++i) used = fe__uses_asset(world, e->assets[i]);
+    return used;
 }
 
-fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
+static void leave_until(fe_store *store, const fe__assets_entered *e, const fe__store_member *end)
+{
+    for (fe__store_member *m = store->first_member; m != end; m = m->next)
+        if (uses_any(m->world, e)) fe__owner_leave(&m->world->owner);
+}
+
+fe_result fe__assets_enter_worlds(fe_store *store, const fe__assets_entered *e)
 {
     for (fe__store_member *m = store->first_member; m; m = m->next) {
-        fe_result entered = is_used(m->world, asset) ? enter(m->world) : FE_OK;
+        fe_result entered = uses_any(m->world, e) ? enter(m->world) : FE_OK;
         if (entered == FE_OK) continue;
-        leave_until(store, asset, m);
+        leave_until(store, e, m);
         return entered;
     }
     return FE_OK;
 }
 
-void fe__asset_leave_worlds(fe_store *store, int32_t asset) { leave_until(store, asset, NULL); }
+void fe__assets_leave_worlds(fe_store *store, const fe__assets_entered *e) { leave_until(store, e, NULL); }
 
 // ---- new heights ---------------------------------------------------------------------------------------------------
 static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t other, const fe__bounds *part)
@@ -219,6 +225,7 @@ void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *par
     fe__heightfield *field = &fe__store_asset(store, asset)->field;
     fe__heightfield_write(field, part, heights);
     fe__store_asset(store, asset)->is_keyed = 0;
+    fe__store_asset(store, asset)->edition = ++store->editions;
     fe__form form = fe__heightfield_form(field, asset);
     fe__bounds changed = fe__samples_bounds(field, part);
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_shapes(m->world, asset, &form, &changed);
@@ -251,5 +258,6 @@ static void renew_users(fe_world *world, int32_t asset)
 void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride)
 {
     fe__mesh_write_materials(fe__store_asset(store, asset), materials, stride);
+    fe__store_asset(store, asset)->edition = ++store->editions;
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_users(m->world, asset);
 }

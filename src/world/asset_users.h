@@ -20,11 +20,18 @@ void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user o
 void fe__world_release_assets(fe_world *world); // all of them, under the lock
 // The use of an asset, under the store's lock. NULL: no shape has it
 fe__asset_use *fe__find_asset_use(const fe_world *world, int32_t asset);
+// Has a shape of the world the asset, under whatever scale?
+int32_t fe__uses_asset(const fe_world *world, int32_t asset);
 
 // ---- edits, under the store's lock ----------------------------------------------------------------------------------
-// Every world that uses the asset is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
-fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset);
-void fe__asset_leave_worlds(fe_store *store, int32_t asset);
+typedef struct fe__assets_entered {
+    const int32_t *assets;
+    int32_t count;
+    const fe_world *but; // the caller is inside already, or NULL
+} fe__assets_entered;
+// Every other world that uses one of the assets is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
+fe_result fe__assets_enter_worlds(fe_store *store, const fe__assets_entered *entered);
+void fe__assets_leave_worlds(fe_store *store, const fe__assets_entered *entered);
 // The worlds were entered. New heights reach the shapes' bounds and trees at once, the contacts in the next step;
 // bodies near them wake.
 void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *part, const float *heights);

@@ -35,7 +35,7 @@ static void hash_serial(fe__hash *h, uint64_t serial)
 }
 
 // contacts have no order of their own: their fingerprints are summed
-static uint64_t hash_contact(const fe_world *w, int32_t pair)
+uint64_t fe__hash_of_contact(const fe_world *w, int32_t pair)
 {
     const fe__contact *m = w->contacts + pair;
     const fe__points *q = fe__points_of(w, m);
@@ -96,24 +96,37 @@ static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
     hash_floats(h, axes->rotation.torque, 3);
 }
 
-// settings, as they were set, and impulses
-static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
+static void hash_impulses(fe__hash *h, const fe_world *w, int32_t joint)
 {
-    const fe__joint_record *r = w->joint_records + joint;
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    fe__joint_any def;
-    fe__joint_describe(w, joint, &def);
-    fe__hash_u64(h, f->serial);
-    fe__hash_u64(h, w->bodies[r->body[0]].serial);
-    fe__hash_u64(h, w->bodies[r->body[1]].serial);
-    fe__hash_i32(h, r->type);
-    fe__hash_joint_settings(h, r->type, &def);
     hash_floats(h, j->impulse, 3);
     hash_floats(h, f->impulse, 3);
     hash_floats(h, w->joints.reactions[joint].force, 3);
     hash_floats(h, w->joints.reactions[joint].torque, 3);
     if (f->axes) hash_axes(h, w->joints.axes + f->axes);
+}
+
+uint64_t fe__hash_of_impulses(const fe_world *w, int32_t joint)
+{
+    fe__hash h = fe__hash_begin();
+    fe__hash_u64(&h, w->joints.frames[joint].serial);
+    hash_impulses(&h, w, joint);
+    return fe__hash_end(&h);
+}
+
+// settings, as they were set, and impulses
+static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
+{
+    const fe__joint_record *r = w->joint_records + joint;
+    fe__joint_any def;
+    fe__joint_describe(w, joint, &def);
+    fe__hash_u64(h, w->joints.frames[joint].serial);
+    fe__hash_u64(h, w->bodies[r->body[0]].serial);
+    fe__hash_u64(h, w->bodies[r->body[1]].serial);
+    fe__hash_i32(h, r->type);
+    fe__hash_joint_settings(h, r->type, &def);
+    hash_impulses(h, w, joint);
 }
 
 // Nothing where there are none
@@ -128,6 +141,14 @@ static void hash_joints(fe__hash *h, const fe_world *w)
     }
 }
 
+uint64_t fe__hash_of_events(const fe_world *w)
+{
+    fe__hash h = fe__hash_begin();
+    hash_pair_events(&h, w->pair_events, w->pair_event_count);
+    hash_other_events(&h, w);
+    return fe__hash_end(&h);
+}
+
 uint64_t fe__world_hash(const fe_world *w)
 {
     fe__hash h = fe__hash_begin();
@@ -136,7 +157,8 @@ uint64_t fe__world_hash(const fe_world *w)
     for (int32_t i = w->first_body; i >= 0; i = w->bodies[i].order_next) {
         hash_body(&h, w->bodies + i);
         for (int32_t pair = w->bodies[i].first_contact; pair >= 0; pair = fe__next_pair(w, pair, i))
-            if (w->pairs[pair].body_a == i && w->pairs[pair].flags & FE__PAIR_LINKED) contacts += hash_contact(w, pair);
+            if (w->pairs[pair].body_a == i && w->pairs[pair].flags & FE__PAIR_LINKED)
+                contacts += fe__hash_of_contact(w, pair);
     }
     fe__hash_u64(&h, contacts);
     hash_pair_events(&h, w->pair_events, w->pair_event_count);

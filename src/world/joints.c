@@ -26,21 +26,6 @@ void fe__joints_init(fe_world *world)
         fe__record_pool_init(&world->joint_settings[type], fe__joint_def_size(type) - FE__JOINT_FRONT);
 }
 
-void fe__joints_free(fe_world *world)
-{
-    fe__memory *memory = &world->memory;
-    fe__id_pool_free(&world->joint_ids, memory);
-    FE_FREE(memory, world->joints.joints, world->joint_capacity[0]);
-    FE_FREE(memory, world->joints.frames, world->joint_capacity[1]);
-    FE_FREE(memory, world->joints.reactions, world->joint_capacity[2]);
-    fe__forest_free(&world->joints.forest, memory);
-    FE_FREE(memory, world->joint_records, world->joint_capacity[3]);
-    fe__record_pool_free(&world->joint_axes, memory);
-    for (int32_t type = 1; type < FE__JOINT_TYPES; ++type) fe__record_pool_free(&world->joint_settings[type], memory);
-    FE_FREE(memory, world->awake_joints, world->awake_joint_capacity);
-    FE_FREE(memory, world->joint_events, world->joint_event_capacity);
-}
-
 // ---- the constraint graph ------------------------------------------------------------------------------------------
 int32_t fe__joint_acts(const fe_world *world, int32_t joint)
 {

@@ -4,7 +4,6 @@
 #include "world/world.h"
 
 void fe__joints_init(fe_world *world);
-void fe__joints_free(fe_world *world);
 // From a checked definition of that type; an end of -1 is the world. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing changed.
 // Both wake the bodies.
 fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *ends,

@@ -5,8 +5,10 @@
 
 #include "collision/cast/mesh_ray.h"
 #include "solver/graph/graph.h"
+#include "world/arrays.h"
 #include "world/asset_users.h"
 #include "world/encounter.h"
+#include "world/forest.h"
 #include "world/ignore.h"
 #include "world/joints.h"
 #include "world/step_scratch.h"
@@ -99,57 +101,11 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     return FE_OK;
 }
 
-static void free_records(fe_world *world)
-{
-    fe__memory *memory = &world->memory;
-    fe__id_pool_free(&world->body_ids, memory);
-    fe__id_pool_free(&world->shape_ids, memory);
-    FE_FREE(memory, world->bodies, world->body_capacity);
-    FE_FREE(memory, world->odometers, world->odometer_capacity);
-    FE_FREE(memory, world->drifts, world->drift_capacity);
-    FE_FREE(memory, world->shapes, world->shape_capacity);
-    FE_FREE(memory, world->contacts, world->contact_capacity);
-    FE_FREE(memory, world->pairs, world->pair_capacity);
-    FE_FREE(memory, world->points, world->point_capacity);
-    FE_FREE(memory, world->features, world->feature_capacity);
-    FE_FREE(memory, world->point_serials, world->point_serial_capacity);
-    FE_FREE(memory, world->extras, world->extra_capacity);
-    FE_FREE(memory, world->point_order, world->point_order_capacity);
-    fe__pair_set_destroy(&world->pair_set, memory);
-    fe__pair_set_destroy(&world->ignored, memory);
-    fe__record_pool_free(&world->ignores, memory);
-    fe__pair_set_destroy(&world->encounter_set, memory);
-    fe__record_pool_free(&world->encounters, memory);
-    fe__clusters_free(&world->clusters, memory);
-    FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
-    FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
-    FE_FREE(memory, world->deferrals, world->deferral_capacity);
-    fe__joints_free(world);
-}
-
-static void free_broad_phase(fe_world *world)
-{
-    fe__memory *memory = &world->memory;
-    fe__tree_destroy(&world->static_tree, memory);
-    fe__tree_destroy(&world->moving_tree, memory);
-    FE_FREE(memory, world->planes, world->plane_capacity);
-    FE_FREE(memory, world->moved, world->moved_capacity);
-}
-
-static void free_events(fe_world *world)
-{
-    fe__memory *memory = &world->memory;
-    FE_FREE(memory, world->pair_events, world->pair_event_capacity);
-    FE_FREE(memory, world->body_events, world->body_event_capacity);
-    FE_FREE(memory, world->disturbed, world->disturbed_capacity);
-    FE_FREE(memory, world->hit_events, world->hit_event_capacity);
-}
-
 void fe__world_free_state(fe_world *world)
 {
-    free_events(world);
-    free_broad_phase(world);
-    free_records(world);
+    fe__clusters_free(&world->clusters, &world->memory);
+    fe__forest_free(&world->joints.forest, &world->memory);
+    fe__arrays_free(world);
 }
 
 void fe__world_destroy(fe_world *world)

@@ -9,6 +9,14 @@
 #include "world/speed.h"
 
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
+int32_t fe__world_rests(const fe_world *world)
+{
+    const fe_world *w = world;
+    return (w->awake_body_count | w->awake_pair_count | w->awake_joint_count | w->moved_count | w->owed_count |
+            w->first_changed | w->disturbed_count | w->pair_event_count | w->body_event_count | w->hit_event_count |
+            w->joint_event_count) == 0;
+}
+
 static void stir(fe_world *world, int32_t index)
 {
     if (world->bodies[index].flags & FE__BODY_DISTURBED) return;

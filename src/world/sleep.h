@@ -3,6 +3,8 @@
 #define FE_WORLD_SLEEP_H
 #include "world/world.h"
 
+// Nothing is awake, and nothing waits to be looked at or told: a step moves on its own numbers only
+int32_t fe__world_rests(const fe_world *world);
 void fe__wake(fe_world *world,
               int32_t body); // it and all that touches it, through dynamic bodies; nothing on static ones
 void fe__wake_neighbours(fe_world *world, int32_t body); // all that touches it, not the body

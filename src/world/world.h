@@ -37,8 +37,11 @@ struct fe_world {
     uint64_t user_data;
     int32_t number; // in its handles
 
+    struct fe_history *first_history; // those that keep frames of this world (state/history.h)
+
     fe_pair_filter pair_filter; // or NULL
     void *pair_filter_user;
+    fe_recorder *recorder; // who notes each call that changes the world, or NULL
 
     // settings
     fe_vec3 gravity;

@@ -304,6 +304,7 @@ uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting
     f->call_name = "fe_world_create";
     f->tells = getenv("FE_FUZZ_TELL") != NULL;
     open_world(f, setting);
+    if (setting->begins) setting->begins(f->world, setting->user);
     while (f->at < f->size && f->call_count++ < MOST_CALLS) {
         const fuzz_call *c = fuzz_calls + fuzz_byte(f) % fuzz_call_count;
         call(f, c);
@@ -311,6 +312,7 @@ uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting
     }
     f->call_name = "the end";
     fuzz_check(f);
+    if (setting->ends) setting->ends(f->world, setting->user);
     uint64_t told = fe__hash_end(&f->told);
     if (fe_world_destroy(f->world) != FE_OK) fuzz_fail(f, "the world cannot be destroyed");
     if (f->blocks != 0) fuzz_fail(f, "memory was not given back");

@@ -2,6 +2,8 @@
 // (test_fuzz.c).
 #ifndef FE_TESTS_FUZZ_H
 #define FE_TESTS_FUZZ_H
+#include "feather.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -12,6 +14,9 @@ typedef struct fuzz_setting {
                      // count
     uint32_t failures; // 0: the stream says which allocations fail. 1: none does. Above: a seed; inside steps every
                        // second one does, by chance, and a step that failed is repeated at once
+    void (*begins)(fe_world *world, void *user); // with the world, before the first call; NULL: none
+    void (*ends)(fe_world *world, void *user);   // after the last one
+    void *user;
 } fuzz_setting;
 
 // Makes a world, calls what the bytes say, checks what must always hold and aborts when it does not. Returns a

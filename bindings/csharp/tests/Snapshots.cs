@@ -43,6 +43,45 @@ namespace FeatherPhysics.Tests
             return told * 31 + world.Hash;
         }
 
+        public static void A_history_goes_back_and_on()
+        {
+            using (Store store = new Store())
+            using (World world = Pile(store, 2))
+            {
+                ulong[] hashes = new ulong[20];
+                HistoryFrame[] frames = new HistoryFrame[20];
+                History history = new History(world, new HistoryDef { Frames = 8 });
+                for (int frame = 0; frame < 20; ++frame)
+                {
+                    history.Keep(frame);
+                    hashes[frame] = world.Hash;
+                    world.Step(Dt);
+                }
+                Check.Same(history.GetFrames(frames), 8, "frames");
+                Check.True(frames[0].Frame == 12 && frames[7].Frame == 19 && frames[0].Bytes > 1000, "which");
+                Body late = world.CreateDynamic(new DVec3(0, 50, 0));
+                history.Restore(13);
+                Check.True(!late.IsValid, "what was made since is gone");
+                for (int frame = 14; frame < 20; ++frame)
+                {
+                    world.Step(Dt);
+                    history.Keep(frame);
+                    Check.Same(world.Hash, hashes[frame], "hash of frame " + frame);
+                }
+                Check.Throws<StaleHandleException>(() => history.Restore(11), "frame 11");
+                Check.Throws<BadArgumentException>(() => history.Keep(19), "above 19");
+                Check.Throws<BadArgumentException>(() => new History(world, new HistoryDef { Frames = 0 }), "frames");
+                Check.Throws<BadArgumentException>(() => new History(null), "null");
+                history.Dispose();
+                history.Dispose();
+                Check.Throws<ObjectDisposedException>(() => history.Keep(30), "disposed");
+                history = new History(world);
+                world.Dispose();
+                Check.Throws<ObjectDisposedException>(() => history.Keep(1), "disposed");
+                history.Dispose();
+            }
+        }
+
         public static void A_restored_world_goes_on_bit_for_bit()
         {
             using (Store store = new Store())

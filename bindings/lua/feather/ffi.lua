@@ -30,6 +30,7 @@ local core = { ffi = true }
 local Box = ffi.typeof("struct { fe_world *const p; fe_pool *const pool; fe_store *const store; }")
 local PoolBox = ffi.typeof("struct { fe_pool *const p; }")
 local StoreBox = ffi.typeof("struct { fe_store *const p; }")
+local HistoryBox = ffi.typeof("struct { fe_history *const p; }")
 local env = { C = C, ffi = ffi, tonumber = tonumber, type = type, math = math }
 
 -- ---- worlds, pools and stores ---------------------------------------------------------------------------------------
@@ -81,6 +82,18 @@ function env.store(box)
     return box.p
 end
 
+-- A history ends with its world, which it keeps.
+function env.history(box)
+    if not ffi.istype(HistoryBox, box) then fail("a history is needed, not a %s", type(box)) end
+    if box.p == nil or owners[box].p == nil then fail("the history is destroyed") end
+    return box.p
+end
+function env.new_history(pointer, world)
+    local box = HistoryBox(pointer)
+    owners[box] = world
+    return box
+end
+
 local function end_world(box)
     if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then env.forget(box) end
 end
@@ -111,9 +124,13 @@ local ABSENT = {
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
 }
+-- for hosts in C
+local function is_of_recordings(name) return name:find("^fe_recorder") or name:find("^fe_player") or name:find("^fe_div") end
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do
-    if not ABSENT[name] and result ~= "void" then core[name:sub(4)] = write(env, result, name, parameters) end
+    if not ABSENT[name] and not is_of_recordings(name) and result ~= "void" then
+        core[name:sub(4)] = write(env, result, name, parameters)
+    end
 end
 
 -- Structs with their defaults. Those of hosts in C, and those that are tables here, are left out.
@@ -122,7 +139,7 @@ local NO_RECORD = {
     fe_mesh_def = true,
 }
 for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
-    if not NO_RECORD[name] then
+    if not NO_RECORD[name] and not is_of_recordings(name) then
         local kind, init, sized = ffi.typeof(name), C[name .. "_init"], parameters:find("struct_size")
         core[name:sub(4)] = function()
             local made = kind()

@@ -31,18 +31,22 @@ local ARRAYS = {
     paths = 'records(ffi.typeof("fe_path[?]"), 10, put_path, %s, count, "paths")',
     floats = 'floats(%s, 6, count, "floats")',
 }
-local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store" }
+local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store", fe_history = "history" }
 local TABLES = {
     fe_query_filter = "filter", fe_heightfield_def = "heightfield", fe_hull_def = "hull", fe_mesh_def = "mesh",
 }
 local HANDLES = { fe_handle = true, fe_body = true, fe_shape = true, fe_joint = true, fe_asset = true }
-local RANGES = { int32_t = "-2147483648, 2147483647", uint32_t = "0, 4294967295" }
+local RANGES = {
+    int32_t = "-2147483648, 2147483647", uint32_t = "0, 4294967295", int64_t = "-9007199254740992, 9007199254740992",
+}
 local PLURAL = {
     out_bodies = true, out_shapes = true, out_joints = true, out_transforms = true, out_hits = true,
     out_overlaps = true, out_events = true, out_contacts = true, out_vertices = true, out_faces = true,
-    out_corners = true, out_instances = true,
+    out_corners = true, out_instances = true, out_frames = true,
 }
-local DESTROYED = { fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true }
+local DESTROYED = {
+    fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true, fe_history_destroy = true,
+}
 
 -- ---- parameters: each adds to the function f its argument, code before the call, the call's argument, results -------
 
@@ -126,6 +130,7 @@ local function write_box(f, p)
     add(f.call, p.o)
     if f.name == "fe_world_get_store" then add(f.results, "store_of(%s[0], a1)", p.o)
     elseif p.kind == "fe_world" then add(f.results, "new_world(%s[0], a1)", p.o) -- behind its definition
+    elseif p.kind == "fe_history" then add(f.results, "new_history(%s[0], a1)", p.o) -- behind its world
     else add(f.results, "new%s(%s[0])", p.kind:sub(3), p.o) end
 end
 

@@ -14,7 +14,7 @@ options.DOFS = { linearX = 0, linearY = 1, linearZ = 2, angularX = 3, angularY =
 local MOTIONS = { locked = 0, limited = 1, free = 2 }
 local SPRINGS = { none = 0, hertz = 1, stiffness = 2 }
 local COMBINES = { default = 0, average = 1, minimum = 2, multiply = 3, maximum = 4 }
-local SIMD = { auto = 0, plain = 1, sse2 = 2, avx2 = 3, avx512 = 4, neon = 5 }
+local SIMD = { auto = 0, plain = 1, sse2 = 2, avx2 = 3, avx512 = 4, neon = 5, wasm = 6 }
 local AXES = { x = 1, y = 2, z = 4 }
 
 function options.word(words, text, what)

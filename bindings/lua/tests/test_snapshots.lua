@@ -33,6 +33,41 @@ end
 
 TestSnapshots = {}
 
+-- Back and on: the same bits. Objects that are gone are forgotten, and bad calls are told.
+function TestSnapshots.testAHistoryGoesBackAndOn()
+    local world, bodies = scene()
+    local history = world:newHistory({ frames = 8 })
+    local hashes = {}
+    for frame = 1, 20 do
+        history:keep(frame)
+        hashes[frame] = world:getHash()
+        steps(world, 1)
+    end
+    lu.assertEquals(#history:getFrames(), 8)
+    lu.assertEquals(history:getFrames()[1].frame, 13)
+    lu.assertTrue(history:getFrames()[1].bytes > 1000)
+    local late = world:newBody({ userData = "late" })
+    history:restore(14)
+    lu.assertTrue(late:isDestroyed())
+    lu.assertEquals(bodies[2]:getUserData(), "body 2")
+    lu.assertEquals(world:getHash(), hashes[14])
+    for frame = 15, 20 do
+        steps(world, 1)
+        history:keep(frame)
+        lu.assertEquals(world:getHash(), hashes[frame])
+    end
+    fails("frame 12 is not kept", history.restore, history, 12)
+    fails("must be above 20", history.keep, history, 20)
+    fails("frame", history.keep, history, "x")
+    fails("frame", history.keep, history, 0 / 0)
+    fails("frames", world.newHistory, world, { frames = 0 })
+    history:close()
+    fails("destroyed", history.keep, history, 21)
+    local other = world:newHistory()
+    world:destroy()
+    fails("destroyed", other.keep, other, 21)
+end
+
 -- In place and loaded, with other workers: the same bits.
 function TestSnapshots.testItGoesOnBitForBit()
     local world, bodies = scene({ number = 3 })

@@ -31,6 +31,7 @@ from .errors import (
     VersionError,
     WrongKindError,
 )
+from .history import History
 from .objects import Body, Joint, Shape
 from .records import (
     BodyEvent,
@@ -102,6 +103,7 @@ __all__ = [
     "Geometry",
     "Heightfield",
     "Hertz",
+    "History",
     "Hit",
     "HitEvent",
     "Hull",

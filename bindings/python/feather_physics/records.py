@@ -481,7 +481,7 @@ class Packed:
 
 
 def _numpy_format(code: str) -> Any:
-    kind = {"Q": "<u8", "I": "<u4", "i": "<i4", "f": "<f4", "d": "<f8"}[code[-1]]
+    kind = {"Q": "<u8", "q": "<i8", "I": "<u4", "i": "<i4", "f": "<f4", "d": "<f8"}[code[-1]]
     return (kind, (int(code[:-1]),)) if code[:-1] else kind
 
 
@@ -509,6 +509,7 @@ CONTACT = Packed(
 )
 
 ASSET_KEY = Packed("words:2Q")
+HISTORY_FRAME = Packed("frame:q bytes:q")
 DRAW_VERTEX = Packed("x:f y:f z:f rgba:I owner:Q")
 DRAW_INSTANCE = Packed(
     "type:i rgba:I shape:Q body:Q asset:Q position:3f rotation:4f half_extents:3f part:i reserved:12x"

@@ -9,13 +9,14 @@ from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Seque
 
 from . import _flat, records
 from ._flat import Bounds, Vec3
+from .history import History
 from .objects import Body, Joint, Shape, handle_of
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
 from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
 from .words import body_type, draw_bits, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
-SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon")
+SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm")
 EVENTS = ("pair", "body", "hit", "joint")
 DRAWN = ("lines", "triangles", "points", "instances")
 ZERO = (0.0, 0.0, 0.0)
@@ -132,10 +133,21 @@ class World:
         was made since are stale, and may be given again to something else: objects of such things are not to be kept.
         False: another library saved it whose results differ, so that it goes on, but not bit for bit."""
         same: bool = _flat.world_restore(self._capsule, None, data)
+        self._forget_ended()
+        return same
+
+    def _forget_ended(self) -> None:
         valid = (_flat.body_is_valid, _flat.shape_is_valid, _flat.joint_is_valid)
         kept = [id for id in self._user_data if any(is_valid(self._capsule, id) for is_valid in valid)]
         self._user_data = {id: self._user_data[id] for id in kept}
-        return same
+
+    def history(self, *, frames: int = 16, bytes: int = 0) -> History:
+        """Keeps the last frames in memory, to go back to one of them at once: for rollback. Bytes: what all of them may
+        hold together, 0: as much as they need."""
+        definition = _flat.history_def()
+        definition.frames = frames
+        definition.bytes = bytes
+        return History(_flat.history_create(self._capsule, definition), self._forget_ended)
 
     @classmethod
     def load(

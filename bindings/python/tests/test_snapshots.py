@@ -10,8 +10,11 @@ import pytest
 from feather_physics import (
     Box,
     DataError,
+    InvalidArgumentError,
+    LimitError,
     Part,
     Sphere,
+    StaleHandleError,
     StateError,
     Store,
     UnsupportedError,
@@ -147,3 +150,38 @@ def test_a_compound_is_saved_by_its_key() -> None:
     assert snapshot_assets(world.save()) == [table.key]
     with pytest.raises(UnsupportedError, match="compounds"):
         world.save(assets=True)
+
+
+def test_a_history_goes_back_and_on() -> None:
+    with pile() as world:
+        history = world.history(frames=8)
+        hashes = []
+        for frame in range(20):
+            history.keep(frame)
+            hashes.append(world.hash)
+            world.step(DT)
+        assert list(history.frames) == list(range(12, 20))
+        assert all(size > 1000 for size in history.frames.values())
+        late = world.create_body(user_data="late")
+        history.restore(13)
+        assert not late.is_valid
+        for frame in range(14, 20):
+            world.step(DT)
+            history.keep(frame)
+            assert world.hash == hashes[frame]
+        with pytest.raises(StaleHandleError):
+            history.restore(11)
+        with pytest.raises(InvalidArgumentError):
+            history.keep(19)
+        with pytest.raises(TypeError):
+            history.keep("x")  # type: ignore[arg-type]
+        with pytest.raises(InvalidArgumentError):
+            world.history(frames=0)
+        with pytest.raises(LimitError):
+            world.history(bytes=10).keep(1)
+        history.close()
+        with pytest.raises(StaleHandleError):
+            history.keep(30)
+        other = world.history()
+    with pytest.raises(StaleHandleError):
+        other.keep(1)

@@ -1,6 +1,5 @@
 // mesh_casts.c - which of the casts against meshes a world takes: those of its SIMD set (mesh_ray.simd.c).
 #include "collision/cast/mesh_ray.h"
-#include "core/simd_sets.h"
 
 #define DECLARE(simd, name) extern const fe__mesh_casts fe__mesh_casts_##name;
 FE_EACH_WIDE_SET(DECLARE)
@@ -13,6 +12,6 @@ const fe__mesh_casts *fe__mesh_casts_of(int32_t simd)
         return &fe__mesh_casts_##name;
         FE_EACH_WIDE_SET(CASE)
     default:
-        return &fe__mesh_casts_plain;
+        return &FE_BASE_SET(fe__mesh_casts);
     }
 }

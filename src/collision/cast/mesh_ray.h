@@ -7,6 +7,7 @@
 #define FE_COLLISION_CAST_MESH_RAY_H
 #include "collision/form/ground.h"
 #include "collision/form/ray_hit.h"
+#include "core/simd_sets.h"
 
 // A translation that moves less than this moves by nothing, m
 #define FE__MESH_STILL 1e-200
@@ -31,7 +32,7 @@ struct fe__mesh_casts {
     // translation that moves by nothing.
     void (*sweep)(const fe__mesh *mesh, const fe__mesh_way *way, double limit, fe__mesh_visit visit, void *context);
 };
-extern const fe__mesh_casts fe__mesh_casts_plain;
+extern const fe__mesh_casts FE_BASE_SET(fe__mesh_casts);
 const fe__mesh_casts *fe__mesh_casts_of(int32_t simd); // of a set that was built, else of plain C
 
 static inline int32_t fe__ground_ray(const fe__ground *s, fe_dvec3 origin, fe_dvec3 translation, double limit,
@@ -39,7 +40,7 @@ static inline int32_t fe__ground_ray(const fe__ground *s, fe_dvec3 origin, fe_dv
 {
     if (!s->mesh) return fe__heightfield_ray(s->field, origin, translation, limit, hit);
     fe__mesh_hit found;
-    const fe__mesh_casts *casts = s->casts ? s->casts : &fe__mesh_casts_plain;
+    const fe__mesh_casts *casts = s->casts ? s->casts : &FE_BASE_SET(fe__mesh_casts);
     if (!casts->ray(s->mesh, origin, translation, limit, &found)) return 0;
     *hit = found.hit;
     return 1;

@@ -231,7 +231,7 @@ static double visit_triangle(void *context, int32_t triangle)
 // A mesh's tree offers its triangles along the way, the nearest first; what stands still asks as an overlap does.
 static void sweep_mesh(fe__field_search *s, double limit, fe__sweep_hit *hit)
 {
-    const fe__mesh_casts *casts = s->surface->casts ? s->surface->casts : &fe__mesh_casts_plain;
+    const fe__mesh_casts *casts = s->surface->casts ? s->surface->casts : &FE_BASE_SET(fe__mesh_casts);
     double spare = 2.0 * s->pair.gap;
     fe__mesh_way way = {s->mover->position,
                         s->mover->translation,

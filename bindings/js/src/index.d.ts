@@ -1,0 +1,172 @@
+import {
+    WorldCalls, BodyCalls, ShapeCalls, JointCalls, StoreCalls, AssetCalls, HullCalls, HeightfieldCalls, MeshCalls, CompoundCalls,
+    Vec3, Quat, Vec3Like, QuatLike, Handle, Hit, Transform, SnapshotInfo, GeometryType, JointType, BodyDefOptions, ShapeDefOptions,
+    GeometryOptions, MaterialOptions, HullDefOptions, HeightfieldDefOptions, MeshDefOptions, CompoundPartOptions, TransformOptions,
+    PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions, HistoryDefOptions, HistoryFrame,
+} from './api.js';
+export * from './api.js';
+
+/** What the library refuses: its code, FE_ERROR_STALE and so on, and its sentence. Wrong types are TypeErrors. */
+export class FeatherError extends Error {
+    constructor(code: string, message: string);
+    readonly code: string;
+}
+/** A pair of numbers that is equal for equal content. */
+export type AssetKey = [bigint, bigint];
+/** Numbers in the module's memory: a view, good until the next call of the same method. `count` records of `stride` words. */
+export interface Drawn { readonly count: number; readonly stride: number; readonly floats: Float32Array; readonly words: Uint32Array }
+export interface RawHits extends Drawn { readonly doubles: Float64Array }
+/** `count` bodies; 7 floats each in `poses`: position, rotation. The arrays may be longer, and are good until the next call. */
+export interface Moved { readonly count: number; readonly ids: Float64Array; readonly poses: Float32Array }
+
+export class Asset extends AssetCalls {
+    readonly store: Store;
+    /** Its handle. */
+    readonly id: number;
+    readonly type: GeometryType;
+    readonly key: AssetKey;
+    /** As bytes, for Store.load. */
+    save(into?: Uint8Array): Uint8Array;
+}
+export interface Hull extends HullCalls {}
+export class Hull extends Asset {}
+export interface Heightfield extends HeightfieldCalls {}
+export class Heightfield extends Asset {
+    setHeights(row: number, column: number, rows: number, columns: number, heights: ArrayLike<number>): void;
+    getHeights(row: number, column: number, rows: number, columns: number): Float32Array;
+}
+export interface Mesh extends MeshCalls {}
+export class Mesh extends Asset {
+    setMaterials(materials: readonly MaterialOptions[]): void;
+}
+export interface Compound extends CompoundCalls {}
+export class Compound extends Asset {}
+
+/** Assets that several worlds share. Each world has one of its own. */
+export class Store extends StoreCalls {
+    constructor(options?: StoreDefOptions | null);
+    destroy(): void;
+    [Symbol.dispose](): void;
+    createHull(options: HullDefOptions | ArrayLike<number>): Hull;
+    createHeightfield(options: HeightfieldDefOptions): Heightfield;
+    createMesh(options: MeshDefOptions): Mesh;
+    createCompound(parts: readonly CompoundPartOptions[]): Compound;
+    load(bytes: ArrayBuffer | ArrayBufferView): Asset;
+    /** The object of a handle. */
+    asset(handle: Handle<Asset>): Asset;
+}
+
+export class Body extends BodyCalls {
+    readonly world: World;
+    readonly id: number;
+    get position(): Vec3;
+    set position(position: Vec3Like);
+    get rotation(): Quat;
+    set rotation(rotation: QuatLike);
+    destroy(): void;
+    createShape(geometry: GeometryOptions | Asset, options?: ShapeDefOptions | null): Shape;
+    addSphere(radius: number, options?: ShapeDefOptions | null): Shape;
+    /** Half the edges' lengths. */
+    addBox(x: number, y: number, z: number, options?: ShapeDefOptions | null): Shape;
+    addCapsule(halfHeight: number, radius: number, options?: ShapeDefOptions | null): Shape;
+    addCylinder(halfHeight: number, radius: number, options?: ShapeDefOptions | null): Shape;
+    addCone(halfHeight: number, radius: number, options?: ShapeDefOptions | null): Shape;
+    addPlane(normal: Vec3Like, distance: number, options?: ShapeDefOptions | null): Shape;
+}
+export class Shape extends ShapeCalls {
+    readonly world: World;
+    readonly id: number;
+}
+export class Joint extends JointCalls {
+    readonly world: World;
+    readonly id: number;
+    readonly type: JointType;
+}
+
+/** Many bodies at once. Arrays are views of the module's memory, good until the next call of the list. */
+export class Bodies {
+    readonly world: World;
+    readonly count: number;
+    /** 7 floats a body: position relative to `origin`, rotation. */
+    poses(origin?: Vec3Like): Float32Array;
+    /** 6 floats a body: linear, then angular velocity. */
+    velocities(): Float32Array;
+    setVelocities(values: ArrayLike<number>): void;
+    addForces(values: ArrayLike<number>): void;
+    transforms(): Transform[];
+    setTransforms(transforms: readonly TransformOptions[]): void;
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+
+/** The last frames of a world, in memory, for rollback. It ends with destroy, or with its world. */
+export class History {
+    readonly world: World;
+    /** Keeps the world as it is, before a step; numbers rise, the oldest frames go. */
+    keep(frame: number): void;
+    /** Puts the world back to a frame; those after it go. */
+    restore(frame: number): void;
+    readonly frames: HistoryFrame[];
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+
+export interface WorldOptions extends WorldDefOptions { store?: Store }
+export interface RestoreOptions extends RestoreOptionsOptions { assets?: readonly Asset[] }
+
+export class World extends WorldCalls {
+    constructor(options?: WorldOptions | null);
+    /** Frees the world and all in it. */
+    destroy(): void;
+    [Symbol.dispose](): void;
+    readonly isDestroyed: boolean;
+    createBody(options?: BodyDefOptions | null): Body;
+    /** All or none. */
+    createBodies(many: readonly BodyDefOptions[]): Body[];
+    destroyBodies(bodies: ArrayLike<Handle<Body>>): void;
+    /** The objects of handles, as records have them. */
+    body(handle: Handle<Body>): Body;
+    shape(handle: Handle<Shape>): Shape;
+    joint(handle: Handle<Joint>): Joint;
+    list(bodies: ArrayLike<Handle<Body>>): Bodies;
+    /** The last frames of the world, to go back to. */
+    createHistory(options?: HistoryDefOptions | null): History;
+    readonly store: Store;
+    createHull(options: HullDefOptions | ArrayLike<number>): Hull;
+    createHeightfield(options: HeightfieldDefOptions): Heightfield;
+    createMesh(options: MeshDefOptions): Mesh;
+    createCompound(parts: readonly CompoundPartOptions[]): Compound;
+    /** 64 bits over the state, 16 hexadecimal digits: equal for equal runs, in every language. */
+    readonly hash: string;
+    /** The bodies that the last step moved, in the same object each time. */
+    getMoved(origin?: Vec3Like): Moved;
+    /** 6 numbers a ray: origin, translation. */
+    raycastMany(rays: ArrayLike<number>, filter?: QueryFilterOptions | null): (Hit | null)[];
+    raycastRaw(rays: ArrayLike<number>, filter?: QueryFilterOptions | null): RawHits;
+    sweepMany(geometry: GeometryOptions, paths: readonly PathOptions[], filter?: QueryFilterOptions | null): (Hit | null)[];
+    save(options?: SaveOptionsOptions | null, into?: Uint8Array): Uint8Array;
+    /** False when the bytes are of a library whose results differ. */
+    restore(bytes: ArrayBuffer | ArrayBufferView, options?: RestoreOptions | null): boolean;
+    static load(bytes: ArrayBuffer | ArrayBufferView, options?: RestoreOptions | null, def?: WorldOptions | null): World;
+    /** 6 words a vertex: x, y, z, rgba, handle of what it belongs to. */
+    drawLines(options?: DrawOptionsOptions | null): Drawn;
+    drawTriangles(options?: DrawOptionsOptions | null): Drawn;
+    drawPoints(options?: DrawOptionsOptions | null): Drawn;
+    drawInstances(options?: DrawOptionsOptions | null): Drawn;
+}
+/** The form of an instance that World.drawInstances wrote. */
+export function instanceType(drawn: Drawn, index: number): GeometryType;
+/** Every check of a restore, without a world. */
+export function checkSnapshot(bytes: ArrayBuffer | ArrayBufferView): SnapshotInfo;
+export function snapshotAssets(bytes: ArrayBuffer | ArrayBufferView): AssetKey[];
+export function version(): string;
+/** The last refusal, in a sentence. */
+export function lastError(): string;
+
+export type FeatherModule = Omit<typeof import('./index.js'), 'default'>;
+interface Feather {
+    (source?: BufferSource | WebAssembly.Module | Response | Promise<BufferSource | WebAssembly.Module | Response>): Promise<FeatherModule>;
+    sync(source?: BufferSource | WebAssembly.Module): FeatherModule;
+}
+declare const Feather: Feather;
+export default Feather;

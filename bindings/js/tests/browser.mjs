@@ -1,0 +1,50 @@
+// The scene of scenario.mjs in a page of headless Chromium, served as a host serves files: prints its two lines.
+//   node browser.mjs [index.js | inline.js]
+import { createServer } from 'node:http';
+import { spawn } from 'node:child_process';
+import { readFileSync, existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { fileURLToPath } from 'node:url';
+
+const entry = process.argv[2] ?? 'index.js', LIMIT = 240e3; // ms; a busy machine takes a minute
+const folder = process.env.FEATHER_PACKAGE ?? fileURLToPath(new URL('../../../build/js', import.meta.url));
+const page = `<!doctype html><meta charset=utf-8><script type=module>
+const lines = [], log = console.log;
+console.log = (line) => { lines.push(line); log(line); };
+const send = (text) => fetch('/result', { method: 'POST', body: text });
+addEventListener('error', (e) => send('ERROR ' + e.message));
+addEventListener('unhandledrejection', (e) => send('ERROR ' + e.reason));
+try { await import('/scenario.mjs'); await send(lines.join('\\n')); } catch (e) { await send('ERROR ' + e.stack); }
+</script>`;
+const served = {
+    '/': ['text/html', page],
+    '/package.mjs': ['text/javascript', `import Feather from '/js/${entry}';\nexport default await Feather();`],
+    '/scenario.mjs': ['text/javascript', readFileSync(new URL('scenario.mjs', import.meta.url))],
+};
+const profile = mkdtempSync(`${tmpdir()}/feather-chromium-`);
+let browser;
+function end(text, status) {
+    console.log(text);
+    browser?.kill();
+    server.close(), server.closeAllConnections();
+    setTimeout(() => {
+        rmSync(profile, { recursive: true, force: true, maxRetries: 3 });
+        process.exit(status);
+    }, 300);
+}
+const server = createServer((request, response) => {
+    if (request.url === '/result') {
+        let text = '';
+        request.on('data', (part) => (text += part)).on('end', () => (response.end(), end(text, text.startsWith('hash ') ? 0 : 1)));
+        return;
+    }
+    const file = `${folder}/${request.url.replace('/js/', '')}`;
+    const found = served[request.url] ?? (/^\/js\/[\w.]+$/.test(request.url) && existsSync(file)
+        ? [file.endsWith('.wasm') ? 'application/wasm' : 'text/javascript', readFileSync(file)] : undefined);
+    response.writeHead(found ? 200 : 404, { 'content-type': found?.[0] ?? 'text/plain' });
+    response.end(found?.[1] ?? 'none');
+}).listen(0, '127.0.0.1', () => {
+    browser = spawn(process.env.CHROMIUM ?? 'chromium', ['--headless', '--no-sandbox', '--disable-gpu', `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`], { stdio: 'ignore' });
+    browser.on('error', (error) => end(`ERROR ${error.message}`, 1));
+    setTimeout(() => end('ERROR nothing came from the browser', 1), LIMIT);
+});

@@ -1,0 +1,16 @@
+// held.h - a state of a world as it lies in memory: taken, and given back.
+#ifndef FE_STATE_HELD_H
+#define FE_STATE_HELD_H
+#include "state/history.h"
+
+int64_t fe__held_size(const fe_world *world); // bytes of a block for its state
+// Into a block of that size. Editions are those of `before` where they still hold. 0: no memory for others
+int32_t fe__held_fill(fe__held *held, fe_world *world, const fe__held *before);
+void fe__held_forget_assets(fe_world *world, fe__held *held);
+int64_t fe__held_bytes(const fe__held *held, const fe__held *before); // without the editions that `before` has
+// Is it the world's state, of which nobody wrote anything since? A world that moves is never asked
+int32_t fe__held_is_state(const fe__held *held, const fe_world *world);
+// The world's state is the held one, but for the numbers of the step. See fe__history_restore
+fe_result fe__held_return(const fe__held *held, fe_world *world);
+
+#endif
