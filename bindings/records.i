@@ -69,9 +69,11 @@ FE_OUT_RECORD(fe_snapshot_info, out_info)
 %define FE_OUT_HITS
 %apply SWIGTYPE *OUT_HIT { fe_hit *out_hit };
 %apply SWIGTYPE *OUT_HIT { fe_closest *out_closest };
+%apply SWIGTYPE *OUT_HIT { fe_difference *out_difference };
 %enddef
 #define FE_FOUND int32_t fe_world_raycast, int32_t fe_world_sweep, int32_t fe_world_sweep_turning, \
     int32_t fe_world_closest_point, \
-    int32_t fe_shape_raycast, int32_t fe_body_raycast, int32_t fe_shape_closest_point, int32_t fe_body_closest_point
+    int32_t fe_shape_raycast, int32_t fe_body_raycast, int32_t fe_shape_closest_point, int32_t fe_body_closest_point, \
+    int32_t fe_snapshot_compare
 #define FE_ANY int32_t fe_world_raycast_any, int32_t fe_world_sweep_any, int32_t fe_world_sweep_turning_any, \
     int32_t fe_world_overlap_any

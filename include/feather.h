@@ -1851,6 +1851,31 @@ FE_API fe_result fe_snapshot_check(const void *bytes, int64_t size, fe_snapshot_
 FE_API int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *out_keys, uint32_t stride,
                                       int32_t capacity);
 
+/// Where two snapshots differ.
+typedef struct fe_difference {
+    uint32_t struct_size;
+    int32_t index;   ///< of a list's entry or an event, from 0. Else 0
+    int32_t element; ///< of a field of several numbers, from 0: 1 is y of a velocity
+    uint32_t reserved;
+    fe_handle handle; ///< the body, shape or joint; of a pair the first shape; 0: it has none
+    fe_handle other;  ///< of a pair the second shape. Else 0
+    char kind[32];    ///< what differs: "body", "shape", "joint", "pair", "world", or a list by its name
+    char field[32];   ///< which number of it; "there": one of the two does not have it
+    char a[32];       ///< the value in the first snapshot, as text
+    char b[32];       ///< the value in the second one
+} fe_difference;
+
+FE_API void fe_difference_init(fe_difference *difference, uint32_t struct_size);
+/// Finds the first difference between two worlds, from their bytes alone: of the world's settings, then of bodies,
+/// shapes, joints and pairs, of each kind in the order of creation, then of lists and events. Where things lie in
+/// memory comes last. The boxes of the broad phase, the contents of assets and the number in the handles do not count:
+/// handles are told with that of the first world.
+/// @param out_difference  its struct_size must be set; stays as it is when there is none; or NULL
+/// @return 1: they differ; 0: they do not; FE_ERROR_DATA or FE_ERROR_VERSION for bytes that are no snapshot,
+///         FE_ERROR_MEMORY
+FE_API int32_t fe_snapshot_compare(const void *a, int64_t a_size, const void *b, int64_t b_size,
+                                   fe_difference *out_difference);
+
 // ---- histories ------------------------------------------------------------------------------------------------------
 // The last frames of a world, in memory, for rollback: keep each frame before its step, and when an input of the past
 // turns out to be another one, go back to that frame and step again. A world that was put back answers and moves as it

@@ -19,6 +19,7 @@ fe_version fe_last_error fe_result_name`.split(/\s+/);
 const recordings = [...header.matchAll(/\b(fe_(?:recorder|player|divergence)_\w+)\(/g)];
 export const LEFT_OUT = {
     ...Object.fromEntries(recordings.map(([, name]) => [name, 'recordings are for hosts in C'])),
+    fe_snapshot_compare: 'why two machines differ is looked for in C, Python, C# or Lua', fe_difference_init: 'of fe_snapshot_compare',
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',

@@ -313,6 +313,7 @@ FE_BYTES(fe_world_save)
     $1 = ($1_ltype)lua_tolstring(L, $input, &size);
     $2 = (int64_t)size;
 }
+%apply (const void *bytes, int64_t size) { (const void *a, int64_t a_size), (const void *b, int64_t b_size) };
 // is the result FE_FOREIGN?
 %typemap(out) fe_result fe_world_restore, fe_result fe_world_load %{
     if ($1 < 0) raise_last(L);

@@ -447,6 +447,7 @@ FE_SAVES(fe_world_save)
     $1 = ($1_ltype)array;
     $2 = call.count;
 }
+%apply (const void *bytes, int64_t size) { (const void *a, int64_t a_size), (const void *b, int64_t b_size) };
 // True: it goes on bit for bit
 %typemap(out) fe_result fe_world_restore {
     if ($1 < 0) {

@@ -108,6 +108,9 @@ DEFINE(fe_restore_options)
 #define THIS fe_snapshot_info
 DEFINE(fe_snapshot_info)
 #undef THIS
+#define THIS fe_difference
+DEFINE(fe_difference)
+#undef THIS
 #define THIS fe_history_def
 DEFINE(fe_history_def)
 #undef THIS

@@ -185,6 +185,9 @@ typedef struct fe__fields {
 #define FE_FIELDS_fe_save_options(FIELD) FIELD(struct_size) FIELD(flags)
 #define FE_FIELDS_fe_restore_options(FIELD) \
     FIELD(struct_size) FIELD(new_number) FIELD(asset_count) FIELD(reserved) FIELD(keys) FIELD(assets)
+#define FE_FIELDS_fe_difference(FIELD) \
+    FIELD(struct_size)                 \
+    FIELD(index) FIELD(element) FIELD(reserved) FIELD(handle) FIELD(other) FIELD(kind) FIELD(field) FIELD(a) FIELD(b)
 #define FE_FIELDS_fe_snapshot_info(FIELD) \
     FIELD(struct_size)                    \
     FIELD(library)                        \
@@ -224,7 +227,7 @@ typedef struct fe__fields {
                             STRUCT(fe_query_filter) STRUCT(fe_draw_options) STRUCT(fe_save_options)              \
                                 STRUCT(fe_restore_options) STRUCT(fe_snapshot_info) STRUCT(fe_recorder_def)      \
                                     STRUCT(fe_player_def) STRUCT(fe_player_info) STRUCT(fe_divergence)           \
-                                        STRUCT(fe_history_def)
+                                        STRUCT(fe_history_def) STRUCT(fe_difference)
 
 #define FE_DECLARE_FIELDS(type) extern const fe__fields fe__fields_of_##type;
 FE_EACH_STRUCT(FE_DECLARE_FIELDS)

@@ -4,6 +4,7 @@
 #include "api/store.h"
 #include "api/world.h"
 #include "core/fp_state.h"
+#include "state/compare.h"
 #include "state/restore.h"
 #include "state/write.h"
 #include "store/asset_bytes.h"
@@ -15,6 +16,7 @@
 FE_DEFINE_EMPTY_INIT(fe_save_options_init, fe_save_options, options)
 FE_DEFINE_EMPTY_INIT(fe_restore_options_init, fe_restore_options, options)
 FE_DEFINE_EMPTY_INIT(fe_snapshot_info_init, fe_snapshot_info, info)
+FE_DEFINE_EMPTY_INIT(fe_difference_init, fe_difference, difference)
 
 // ---- assets --------------------------------------------------------------------------------------------------------
 
@@ -341,4 +343,34 @@ int32_t fe_snapshot_get_assets(const void *bytes, int64_t size, fe_asset_key *ou
         memcpy(fe__at(out_keys, stride, i), &key, sizeof key);
     }
     return count;
+}
+
+// ---- comparing -----------------------------------------------------------------------------------------------------
+
+static fe_result open_one(const char *function, const char *name, const void *bytes, int64_t size,
+                          fe__snapshot *snapshot)
+{
+    if (!bytes) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL", name);
+    if (size < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s_size is %lld", name, (long long)size);
+    if (!fe__snapshot_open(snapshot, bytes, size))
+        return fe__fail(function, snapshot->result, "%s: %s", name, snapshot->sentence);
+    if (fe__rows_of(snapshot, FE__TABLE_WORLD) == 1) return FE_OK;
+    return fe__fail(function, FE_ERROR_DATA, "%s: there is not one world", name);
+}
+
+int32_t fe_snapshot_compare(const void *a, int64_t a_size, const void *b, int64_t b_size, fe_difference *out_difference)
+{
+    FE_BEGIN_WITHOUT_WORLD();
+    fe__snapshot first, second;
+    fe__memory memory;
+    fe_difference difference;
+    if (out_difference) FE_CHECK_STRUCT_SIZE(out_difference);
+    FE_TRY(open_one(function, "a", a, a_size, &first));
+    FE_TRY(open_one(function, "b", b, b_size, &second));
+    second.number = first.number;
+    fe__memory_init(&memory, NULL);
+    int32_t found = fe__snapshot_compare(&first, &second, &memory, &difference);
+    if (found < 0) return fe__report(function, (fe_result)found);
+    if (found && out_difference) fe__write_struct(out_difference, &difference, sizeof difference);
+    return found;
 }

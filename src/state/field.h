@@ -1,9 +1,9 @@
 // field.h - what a record consists of, one line a field: the one description that writing, reading, checking and
 // comparing snapshots share.
 //
-// A field is `count` numbers of one kind, side by side. In a snapshot it is a column: the field of the first record,
-// then of the second, little-endian. Each number is within its range when it is read; what a number means beside others
-// is checked where the record is built again.
+// A field is `count` numbers of one kind, side by side. In a snapshot the fields of a record stand one behind another,
+// little-endian. Each number is within its range when it is read; what a number means beside others is checked where
+// the record is built again.
 #ifndef FE_STATE_FIELD_H
 #define FE_STATE_FIELD_H
 #include "feather.h"
@@ -26,7 +26,8 @@ typedef enum fe__field_kind {
 } fe__field_kind;
 
 typedef enum fe__range_number {
-    FE__RANGE_ANY, // all bits mean something
+    FE__RANGE_ANY,     // all bits mean something
+    FE__RANGE_GROWING, // those of a counter or a bound, which tells of what was, not of what is
     FE__RANGE_FINITE,
     FE__RANGE_POSITIVE, // or 0
     FE__RANGE_UNIT,     // of a unit vector, but for its rounding

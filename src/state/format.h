@@ -2,12 +2,12 @@
 //
 //   header    0  magic (8 bytes) | major, minor (2 each) | results (4) | version of the library (4) | number (4)
 //            24  size of all (8) | sum (8) | number of sections (4) | 0 (4)
-//   section      type (4) | version, flags (2 each) | size of what follows (8) | its sum (8) | rows (8) | columns...
+//   section      type (4) | version, flags (2 each) | size of what follows (8) | its sum (8) | rows (8) | rows...
 //
 // A section is padded with zeros to a multiple of 8. Sections of tables stand in the order of fe__table_number, each
 // once; contents of assets follow them, where they are asked for. The header's sum is that of the sections' and of the
 // header itself but for the world's number, which handles do not hold either: worlds that differ in it alone have one
-// sum. Minor versions append: columns to a section, which gets another version, and sections that a reader may skip.
+// sum. Minor versions append: fields to rows, whose section gets another version, and sections that a reader may skip.
 #ifndef FE_STATE_FORMAT_H
 #define FE_STATE_FORMAT_H
 #include "state/table.h"
@@ -20,7 +20,7 @@ enum {
     FE__SECTION_HEADER = 24,
     FE__SECTION_ASSET = 1000, // the bytes of fe_asset_save: one section each
     FE__SECTION_MAY_SKIP = 1, // flag
-    FE__SECTION_ROWS = 8      // bytes, before the columns
+    FE__SECTION_ROWS = 8      // bytes, before the rows
 };
 
 // Places in the header
@@ -37,11 +37,10 @@ enum {
 extern const unsigned char fe__snapshot_magic[8];
 
 static inline int64_t fe__padded(int64_t size) { return (size + 7) / 8 * 8; }
-int64_t fe__row_size(const fe__table *table); // bytes in all columns
 // Of the section with so many rows, with its header
 static inline int64_t fe__section_size(const fe__table *table, int64_t rows)
 {
-    return FE__SECTION_HEADER + fe__padded(FE__SECTION_ROWS + rows * fe__row_size(table));
+    return FE__SECTION_HEADER + fe__padded(FE__SECTION_ROWS + rows * table->row_size);
 }
 // The sum of a header whose other fields are written
 uint64_t fe__header_sum(const unsigned char *header);

@@ -9,12 +9,12 @@
 
 #define ROWS(rows, length, following)                                  \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place) { return following; }
-#define RECORDS(rows, record)                                                     \
-    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room) \
-    {                                                                             \
-        (void)world, (void)room;                                                  \
-        return record;                                                            \
+    static int32_t next_##rows(const fe_world *world, int32_t place) { return following; }
+#define RECORDS(rows, record)                                                      \
+    static const void *rows##_at(const fe_world *world, int32_t place, void *room) \
+    {                                                                              \
+        (void)world, (void)room;                                                   \
+        return record;                                                             \
     }
 
 // ---- pairs: contact 0 is no contact ---------------------------------------------------------------------------------
@@ -71,14 +71,14 @@ int32_t fe__count_deferrals(const fe_world *world)
     return count;
 }
 
-int32_t fe__next_deferrals(const fe_world *world, int32_t place)
+static int32_t next_deferrals(const fe_world *world, int32_t place)
 {
     do place = next_awake(world, place);
     while (place < world->pair_limit && !is_deferred(world, place));
     return place;
 }
 
-const void *fe__deferrals_at(const fe_world *world, int32_t place, void *room)
+static const void *deferrals_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__deferral *d = world->deferrals + world->pairs[place].awake_index;
     *(fe__deferral_row *)room = (fe__deferral_row){place,
@@ -96,7 +96,7 @@ ROWS(free_pairs, world->pair_limit - 1 - live_pairs(world) - world->owed_count,
 RECORDS(free_pairs, fe__slot_in(room, place))
 
 ROWS(owed, world->owed_count, place < 0 ? world->first_owed : world->pairs[place].links[0].next)
-const void *fe__owed_at(const fe_world *world, int32_t place, void *room)
+static const void *owed_at(const fe_world *world, int32_t place, void *room)
 {
     fe__owed_row *row = room;
     row->slot = place;
@@ -141,7 +141,7 @@ static int32_t next_encounter(const fe_world *w, int32_t place)
 ROWS(free_ignores, world->ignores.free_count, next_free(&world->ignores, place))
 RECORDS(free_ignores, fe__slot_in(room, place))
 ROWS(ignores, fe__live_records(&world->ignores), next_ignore(world, place))
-const void *fe__ignores_at(const fe_world *world, int32_t place, void *room)
+static const void *ignores_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__ignore *i = fe__record(&world->ignores, place);
     *(fe__ignore_row *)room = (fe__ignore_row){place, {i->body[0], i->body[1]}, {i->links[0].next, i->links[1].next}};
@@ -151,10 +151,27 @@ const void *fe__ignores_at(const fe_world *world, int32_t place, void *room)
 ROWS(free_encounters, world->encounters.free_count, next_free(&world->encounters, place))
 RECORDS(free_encounters, fe__slot_in(room, place))
 ROWS(encounters, fe__live_records(&world->encounters), next_encounter(world, place))
-const void *fe__encounters_at(const fe_world *world, int32_t place, void *room)
+static const void *encounters_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__encounter *e = fe__record(&world->encounters, place);
     *(fe__encounter_row *)room =
         (fe__encounter_row){place, e->shape_a, e->shape_b, e->lead, e->denied, e->entered, e->listed};
     return room;
 }
+
+// ---- blocks of rows
+// ---------------------------------------------------------------------------------------------------
+FE__GATHER(pairs)
+FE__GATHER(contacts)
+FE__GATHER(touching)
+FE__GATHER(points)
+FE__GATHER(features)
+FE__GATHER(extras)
+FE__GATHER(free_pairs)
+FE__GATHER(owed)
+FE__GATHER(awake_pairs)
+FE__GATHER(deferrals)
+FE__GATHER(ignores)
+FE__GATHER(free_ignores)
+FE__GATHER(encounters)
+FE__GATHER(free_encounters)

@@ -51,7 +51,7 @@ static int32_t read_header(fe__snapshot *s)
     return 1;
 }
 
-// ---- columns -------------------------------------------------------------------------------------------------------
+// ---- numbers -------------------------------------------------------------------------------------------------------
 static double number_at(const fe__field *field, const unsigned char *at)
 {
     switch ((fe__field_kind)field->kind) {
@@ -90,37 +90,27 @@ static int32_t is_within(const fe__field *field, const unsigned char *at)
     return x >= (field->kind == FE__F64 ? -DBL_MAX : range->low) && x <= high && (!must_be_whole || is_whole(x));
 }
 
-// Most of a snapshot: without a branch for each
-static int32_t are_finite(const unsigned char *at, int64_t count)
+static int32_t check_row(fe__snapshot *s, const fe__table *table, int32_t row, const unsigned char *at)
 {
-    const uint32_t exponent = 0x7f800000u;
-    uint32_t some = 0;
-    for (int64_t i = 0; i < count; ++i) some |= (fe__take_u32(&at) & exponent) == exponent;
-    return !some;
-}
-
-static int32_t check_field(fe__snapshot *s, const fe__table *table, const fe__field *field, const unsigned char *column,
-                           int32_t rows)
-{
-    uint32_t size = fe__kind_size(field->kind);
-    int64_t numbers = (int64_t)rows * field->count;
-    if (field->range == FE__RANGE_ANY) return 1;
-    if (field->range == FE__RANGE_FINITE && field->kind == FE__F32 && are_finite(column, numbers)) return 1;
-    for (int64_t i = 0; i < numbers; ++i) {
-        const unsigned char *at = column + i * size;
-        if (is_within(field, at)) continue;
-        return fe__snapshot_refuse(s, "byte %lld, %s, row %lld: %s is %.9g", (long long)(at - s->bytes), table->name,
-                                   (long long)(i / field->count), field->name, number_at(field, at));
+    for (int32_t f = 0; f < table->field_count; ++f) {
+        const fe__field *field = table->fields + f;
+        for (uint32_t k = 0; k < field->count; ++k, at += fe__kind_size(field->kind)) {
+            if (field->range == FE__RANGE_ANY || field->range == FE__RANGE_GROWING || is_within(field, at)) continue;
+            return fe__snapshot_refuse(s, "byte %lld, %s, row %ld: %s is %.9g", (long long)(at - s->bytes), table->name,
+                                       (long)row, field->name, number_at(field, at));
+        }
     }
     return 1;
 }
 
-static int32_t check_columns(fe__snapshot *s, const fe__table *table, const fe__view *view)
+static int32_t check_rows(fe__snapshot *s, const fe__table *table, const fe__view *view)
 {
-    const unsigned char *column = view->columns;
-    for (int32_t f = 0; f < table->field_count; ++f) {
-        if (!check_field(s, table, table->fields + f, column, view->rows)) return 0;
-        column += (int64_t)view->rows * fe__field_size(table->fields + f);
+    for (int32_t first = 0; first < view->rows; first += FE__BLOCK) {
+        const unsigned char *at = view->content + (int64_t)first * table->row_size;
+        int32_t count = fe__mini(view->rows - first, FE__BLOCK);
+        if (!table->doubt(at, count)) continue;
+        for (int32_t i = 0; i < count; ++i)
+            if (!check_row(s, table, first + i, at + (int64_t)i * table->row_size)) return 0;
     }
     return 1;
 }
@@ -163,11 +153,11 @@ static int32_t read_table(fe__snapshot *s, const section *in, uint32_t number)
         return fe__snapshot_refuse(s, "byte %lld: section %u, version %u stands where %s must be", (long long)where,
                                    (unsigned)in->type, (unsigned)in->version, table->name);
     uint64_t rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
-    if (rows > INT32_MAX || fe__padded(FE__SECTION_ROWS + (int64_t)rows * fe__row_size(table)) != in->size)
+    if (rows > INT32_MAX || fe__padded(FE__SECTION_ROWS + (int64_t)rows * table->row_size) != in->size)
         return fe__snapshot_refuse(s, "byte %lld: %s has %lld bytes, which are not those of %llu rows",
                                    (long long)where, table->name, (long long)in->size, (unsigned long long)rows);
     s->tables[number] = (fe__view){at, (int32_t)rows, (int32_t)number};
-    return check_columns(s, table, s->tables + number);
+    return check_rows(s, table, s->tables + number);
 }
 
 static int32_t read_sections(fe__snapshot *s)
@@ -202,58 +192,11 @@ int32_t fe__snapshot_open(fe__snapshot *s, const void *bytes, int64_t size)
 }
 
 // ---- rows ----------------------------------------------------------------------------------------------------------
-static void take_number(const unsigned char *at, uint32_t size, unsigned char *out)
-{
-    uint8_t byte;
-    uint16_t half;
-    uint32_t word;
-    uint64_t two;
-    switch (size) {
-    case sizeof byte:
-        byte = fe__take_u8(&at);
-        memcpy(out, &byte, sizeof byte);
-        return;
-    case sizeof half:
-        half = fe__take_u16(&at);
-        memcpy(out, &half, sizeof half);
-        return;
-    case sizeof word:
-        word = fe__take_u32(&at);
-        memcpy(out, &word, sizeof word);
-        return;
-    default:
-        two = fe__take_u64(&at);
-        memcpy(out, &two, sizeof two);
-    }
-}
-
-static void take_name(const fe__snapshot *s, const unsigned char *at, unsigned char *out)
-{
-    fe_handle handle = fe__take_u64(&at);
-    if (handle) handle |= (fe_handle)(uint32_t)s->number << FE_ID_NUMBER_SHIFT;
-    memcpy(out, &handle, sizeof handle);
-}
-
 void fe__take_row(const fe__snapshot *s, fe__table_number number, int32_t row, void *record)
 {
     const fe__table *table = fe__tables + number;
-    const fe__view *view = s->tables + number;
-    const unsigned char *column = view->columns;
-    for (int32_t f = 0; f < table->field_count; ++f) {
-        const fe__field *field = table->fields + f;
-        uint32_t size = fe__kind_size(field->kind), all = fe__field_size(field);
-        const unsigned char *at = column + (int64_t)row * all;
-        unsigned char *out = (unsigned char *)record + field->offset;
-        int32_t is_copied = FE_IS_LITTLE_ENDIAN && field->kind != FE__NAME;
-        if (is_copied) memcpy(out, at, all);
-        for (uint32_t i = 0; i < field->count && !is_copied; ++i, at += size, out += size) {
-            if (field->kind == FE__NAME)
-                take_name(s, at, out);
-            else
-                take_number(at, size, out);
-        }
-        column += (int64_t)view->rows * all;
-    }
+    fe_handle bits = (fe_handle)(uint32_t)s->number << FE_ID_NUMBER_SHIFT;
+    table->take(s->tables[number].content + (int64_t)row * table->row_size, bits, record);
 }
 
 int32_t fe__listed_slot(const fe__snapshot *s, fe__table_number number, int32_t row)

@@ -6,8 +6,8 @@
 
 enum { FE__SENTENCE = 200 };
 
-typedef struct fe__view { // a table
-    const unsigned char *columns;
+typedef struct fe__view {         // a table
+    const unsigned char *content; // its rows
     int32_t rows;
     int32_t section; // offset of its header in the bytes
 } fe__view;
@@ -30,6 +30,11 @@ int32_t fe__snapshot_open(fe__snapshot *snapshot, const void *bytes, int64_t siz
 int32_t fe__snapshot_refuse(fe__snapshot *snapshot, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int32_t fe__snapshot_fail(fe__snapshot *snapshot, fe_result result); // memory or a limit: no sentence; returns 0
 
+// The bytes of a row
+static inline const unsigned char *fe__row_at(const fe__snapshot *snapshot, fe__table_number table, int32_t row)
+{
+    return snapshot->tables[table].content + (int64_t)row * fe__tables[table].row_size;
+}
 // The state of row `row`, into a record of that table: other members stay as they are
 void fe__take_row(const fe__snapshot *snapshot, fe__table_number table, int32_t row, void *record);
 static inline int32_t fe__rows_of(const fe__snapshot *snapshot, fe__table_number table)

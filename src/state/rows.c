@@ -8,18 +8,18 @@
 // ---- lists that are arrays: rows in their order ---------------------------------------------------------------------
 #define ARRAY_ROWS(rows, length)                                       \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place) { return (void)world, place + 1; }
-#define ARRAY_RECORDS(rows, record)                                               \
-    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room) \
-    {                                                                             \
-        (void)room;                                                               \
-        return record;                                                            \
+    static int32_t next_##rows(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+#define ARRAY_RECORDS(rows, record)                                                \
+    static const void *rows##_at(const fe_world *world, int32_t place, void *room) \
+    {                                                                              \
+        (void)room;                                                                \
+        return record;                                                             \
     }
 
 // ---- the world ------------------------------------------------------------------------------------------------------
 int32_t fe__count_world(const fe_world *world) { return (void)world, 1; }
-int32_t fe__next_world(const fe_world *world, int32_t place) { return (void)world, place + 1; }
-const void *fe__world_at(const fe_world *world, int32_t place, void *room)
+static int32_t next_world(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+static const void *world_at(const fe_world *world, int32_t place, void *room)
 {
     (void)place;
     *(fe__world_row *)room = (fe__world_row){.user_data = world->user_data,
@@ -56,7 +56,7 @@ ARRAY_RECORDS(joint_slots, world->joint_ids.slots + place)
 // ---- bodies: anchors are their joints' ------------------------------------------------------------------------------
 #define SLOT_ROWS(rows, length, pool, with_hidden)                     \
     int32_t fe__count_##rows(const fe_world *world) { return length; } \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place)      \
+    static int32_t next_##rows(const fe_world *world, int32_t place)   \
     {                                                                  \
         return fe__next_slot(&world->pool, place, with_hidden);        \
     }
@@ -70,7 +70,7 @@ ARRAY_RECORDS(drifts, world->drifts + place)
 SLOT_ROWS(shapes, world->shape_count, shape_ids, 1)
 ARRAY_RECORDS(shapes, world->shapes + place)
 SLOT_ROWS(forms, world->shape_count, shape_ids, 1)
-const void *fe__forms_at(const fe_world *world, int32_t place, void *room)
+static const void *forms_at(const fe_world *world, int32_t place, void *room)
 {
     *(fe__form_numbers *)room = fe__numbers_of_form(&world->shapes[place].form);
     return room;
@@ -83,13 +83,13 @@ static int32_t is_first_user(const fe_world *world, int32_t shape)
 }
 
 int32_t fe__count_assets(const fe_world *world) { return world->use_count; }
-int32_t fe__next_assets(const fe_world *world, int32_t place)
+static int32_t next_assets(const fe_world *world, int32_t place)
 {
     do place = fe__next_slot(&world->shape_ids, place, 1);
     while (place < world->shape_ids.slot_count && !is_first_user(world, place));
     return place;
 }
-const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
+static const void *assets_at(const fe_world *world, int32_t place, void *room)
 {
     int32_t index = world->shapes[place].form.field;
     const fe__asset *parent = fe__store_parent(world->store, index);
@@ -98,6 +98,8 @@ const void *fe__assets_at(const fe_world *world, int32_t place, void *room)
         {key.words[0], key.words[1]}, fe__store_asset(world->store, index)->scale, place, parent->kind, parent->handle};
     return room;
 }
+
+int32_t fe__next_asset_user(const fe_world *world, int32_t shape) { return next_assets(world, shape); }
 
 // ---- joints: joint i has slot i - 1 ---------------------------------------------------------------------------------
 #define JOINT_ROWS(rows, record)                      \
@@ -116,9 +118,9 @@ static int32_t next_of_type(const fe_world *world, int32_t place, int32_t type)
     return place;
 }
 
-#define TYPE_ROWS(rows, number)                                                                                  \
-    int32_t fe__count_##rows(const fe_world *world) { return fe__live_records(world->joint_settings + number); } \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place) { return next_of_type(world, place, number); } \
+#define TYPE_ROWS(rows, number)                                                                                     \
+    int32_t fe__count_##rows(const fe_world *world) { return fe__live_records(world->joint_settings + number); }    \
+    static int32_t next_##rows(const fe_world *world, int32_t place) { return next_of_type(world, place, number); } \
     ARRAY_RECORDS(rows, fe__record(world->joint_settings + number, world->joint_records[place + 1].settings))
 
 TYPE_ROWS(distance_joints, FE_JOINT_DISTANCE)
@@ -128,7 +130,7 @@ TYPE_ROWS(fixed_joints, FE_JOINT_FIXED)
 TYPE_ROWS(configurable_joints, FE_JOINT_CONFIGURABLE)
 
 int32_t fe__count_joint_axes(const fe_world *world) { return fe__live_records(&world->joint_axes); }
-int32_t fe__next_joint_axes(const fe_world *world, int32_t place)
+static int32_t next_joint_axes(const fe_world *world, int32_t place)
 {
     do place = fe__next_slot(&world->joint_ids, place, 0);
     while (place < world->joint_ids.slot_count && !world->joints.frames[place + 1].axes);
@@ -161,12 +163,44 @@ ARRAY_ROWS(moving_nodes, world->moving_tree.node_count)
 ARRAY_RECORDS(moving_nodes, world->moving_tree.nodes + place)
 
 int32_t fe__count_trees(const fe_world *world) { return (void)world, FE_TREES; }
-int32_t fe__next_trees(const fe_world *world, int32_t place) { return (void)world, place + 1; }
+static int32_t next_trees(const fe_world *world, int32_t place) { return (void)world, place + 1; }
 // Free nodes decide how the next proxy comes in. Beyond these the tree has room whatever comes
-const void *fe__trees_at(const fe_world *world, int32_t place, void *room)
+static const void *trees_at(const fe_world *world, int32_t place, void *room)
 {
     fe__tree *tree = room;
     *tree = place ? world->moving_tree : world->static_tree;
     tree->node_capacity = (int32_t)fe__minl(tree->node_capacity, fe__most_nodes(tree));
     return room;
 }
+
+// ---- blocks of rows
+// ---------------------------------------------------------------------------------------------------
+FE__GATHER(world)
+FE__GATHER(body_slots)
+FE__GATHER(shape_slots)
+FE__GATHER(joint_slots)
+FE__GATHER(bodies)
+FE__GATHER(drifts)
+FE__GATHER(shapes)
+FE__GATHER(forms)
+FE__GATHER(assets)
+FE__GATHER(joints)
+FE__GATHER(distance_joints)
+FE__GATHER(ball_joints)
+FE__GATHER(hinge_joints)
+FE__GATHER(fixed_joints)
+FE__GATHER(configurable_joints)
+FE__GATHER(joint_anchors)
+FE__GATHER(joint_frames)
+FE__GATHER(joint_reactions)
+FE__GATHER(joint_axes)
+FE__GATHER(awake_bodies)
+FE__GATHER(awake_joints)
+FE__GATHER(planes)
+FE__GATHER(pair_events)
+FE__GATHER(body_events)
+FE__GATHER(hit_events)
+FE__GATHER(joint_events)
+FE__GATHER(trees)
+FE__GATHER(static_nodes)
+FE__GATHER(moving_nodes)

@@ -29,10 +29,20 @@ static inline int64_t fe__most_nodes(const fe__tree *tree)
 }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
-#define FE__DECLARE_ROWS(rows)                                     \
-    int32_t fe__count_##rows(const fe_world *world);               \
-    int32_t fe__next_##rows(const fe_world *world, int32_t place); \
-    const void *fe__##rows##_at(const fe_world *world, int32_t place, void *room);
+#define FE__DECLARE_ROWS(rows)                       \
+    int32_t fe__count_##rows(const fe_world *world); \
+    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block);
+
+// Of functions `next_` and `_at` of the same file
+#define FE__GATHER(rows)                                                                                  \
+    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block) \
+    {                                                                                                     \
+        for (int32_t i = 0; i < count; ++i) {                                                             \
+            place = next_##rows(world, place);                                                            \
+            block->records[i] = rows##_at(world, place, block->rooms[i]);                                 \
+        }                                                                                                 \
+        return place;                                                                                     \
+    }
 
 FE__DECLARE_ROWS(world)
 FE__DECLARE_ROWS(body_slots)
@@ -77,5 +87,7 @@ FE__DECLARE_ROWS(joint_events)
 FE__DECLARE_ROWS(trees)
 FE__DECLARE_ROWS(static_nodes)
 FE__DECLARE_ROWS(moving_nodes)
+
+int32_t fe__next_asset_user(const fe_world *world, int32_t shape); // the first user of the next asset
 
 #endif

@@ -1,7 +1,7 @@
 // table.h - the tables of a snapshot: which records there are, in which order they stand, and of what they consist.
 //
-// A table is a section of the format: as many rows as records, a column for each field. Rows are in the order of the
-// records' slots, so that the same state gives the same bytes whatever was allocated, and by whom.
+// A table is a section of the format: as many rows as records, in each the fields one behind another. Rows are in the
+// order of the records' slots, so that the same state gives the same bytes whatever was allocated, and by whom.
 #ifndef FE_STATE_TABLE_H
 #define FE_STATE_TABLE_H
 #include "state/field.h"
@@ -54,18 +54,31 @@ typedef enum fe__table_number {
     FE__TABLES
 } fe__table_number;
 
+enum {
+    FE__ROOM = 320,           // bytes, for the largest record that is made
+    FE__LARGEST_RECORD = 640, // bytes, of any table
+    FE__BLOCK = 64            // rows that are written and checked at a time
+};
+
+// Records of a block of rows: the world's own, or made in the rooms
+typedef struct fe__rows_block {
+    const void *records[FE__BLOCK];
+    _Alignas(16) unsigned char rooms[FE__BLOCK][FE__ROOM];
+} fe__rows_block;
+
 typedef struct fe__table {
     const char *name;
     const fe__field *fields;
     int32_t field_count;
-    int32_t record_size;                                   // bytes, of what `at` gives
-    int32_t (*count)(const fe_world *world);               // rows, in constant time
-    int32_t (*next)(const fe_world *world, int32_t place); // after a place, -1: the first. Of `count` places
-    // The record there: the world's own, or one that is made in `room`
-    const void *(*at)(const fe_world *world, int32_t place, void *room);
+    int32_t row_size;                        // bytes
+    int32_t (*count)(const fe_world *world); // rows, in constant time
+    // The next rows behind a place, -1: from the first. Returns the place of the last of them
+    int32_t (*gather)(const fe_world *world, int32_t place, int32_t rows, fe__rows_block *block);
+    void (*put)(const fe__rows_block *block, int32_t rows, unsigned char *out);
+    void (*take)(const unsigned char *row, fe_handle number, void *record); // number: of the world, in its bits
+    // Most numbers are within their ranges: 0 when each number of these rows is. Else some may be outside
+    uint32_t (*doubt)(const unsigned char *rows, int32_t count);
 } fe__table;
-
-enum { FE__ROOM = 320 }; // bytes, for the largest record that is made
 extern const fe__table fe__tables[FE__TABLES];
 
 // ---- records that are made for a row -------------------------------------------------------------------------------

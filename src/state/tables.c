@@ -4,6 +4,7 @@
 #include "state/table.h"
 
 #include "collision/form/sound.h"
+#include "state/numbers.h"
 #include "state/rows.h"
 #include "world/encounter.h"
 
@@ -11,6 +12,7 @@
 
 const fe__range fe__ranges[FE__RANGES] = {
     [FE__RANGE_ANY] = {0.0, 0.0},
+    [FE__RANGE_GROWING] = {0.0, 0.0},
     [FE__RANGE_FINITE] = {-(double)FLT_MAX, (double)FLT_MAX},
     [FE__RANGE_POSITIVE] = {0.0, (double)FLT_MAX},
     [FE__RANGE_UNIT] = {-1.001, 1.001},
@@ -35,10 +37,11 @@ const fe__range fe__ranges[FE__RANGES] = {
 // clang-format off
 // ---- the world -----------------------------------------------------------------------------------------------------
 #define WORLD(T, S, R, P) \
-    S(T, user_data, U64, ANY) S(T, next_serial, U64, ANY) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
-    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) S(T, row_kinds, U32, ANY) \
+    S(T, user_data, U64, ANY) S(T, next_serial, U64, GROWING) S(T, step_number, I64, ANY) S(T, gravity, F32, FINITE) \
+    S(T, substeps, I32, SUBSTEPS) S(T, last_h, F32, POSITIVE) S(T, last_dt, F32, POSITIVE) \
+    S(T, row_kinds, U32, GROWING) \
     S(T, pair_limit, I32, INDEX) S(T, pair_colours, I32, INDEX) S(T, static_colours, I32, INDEX) \
-    S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, ANY) \
+    S(T, has_extras, I32, BOOL) S(T, has_filter, I32, BOOL) S(T, joint_row_kinds, U32, GROWING) \
     S(T, most_joints, I32, INDEX) S(T, ignore_limit, I32, INDEX) S(T, encounter_limit, I32, INDEX) \
     S(T, free_slots, I32, SLOT_STATE) P(4) \
     R(T, tuning.struct_size) S(T, tuning.contact_hertz, F32, FINITE) S(T, tuning.contact_damping_ratio, F32, FINITE) \
@@ -194,9 +197,39 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, box, F32, ANY) S(T, child, I32, ANY) S(T, parent, I32, LINK) S(T, lane, I32, INDEX) R(T, spare)
 // clang-format on
 
-#define DEFINE(name, record, list)                            \
-    static const fe__field name[] = FE__FIELDS(record, list); \
-    FE__IS_WHOLE(record, list)
+// ---- what the lists become ------------------------------------------------------------------------------------------
+#define PUT(T, member, kind, range) out = fe__put_numbers(out, &r->member, sizeof r->member, FE__##kind);
+#define TAKE(T, member, kind, range) in = fe__take_numbers(in, &r->member, sizeof r->member, FE__##kind, number);
+#define DOUBT(T, member, kind, range) \
+    doubts |= fe__doubt_numbers(in, sizeof r->member, FE__##kind, FE__RANGE_##range), in += sizeof r->member;
+#define DEFINE(name, record, list)                                                         \
+    static const fe__field name[] = FE__FIELDS(record, list);                              \
+    _Static_assert(sizeof(record) <= FE__LARGEST_RECORD, "there is room for each record"); \
+    FE__IS_WHOLE(record, list);                                                            \
+    enum { name##_size = 0 list(record, FE__STATE_SIZE, FE__NO_FIELD, FE__NO_FIELD) };     \
+    static void put_##name(const fe__rows_block *block, int32_t rows, unsigned char *out)  \
+    {                                                                                      \
+        for (int32_t i = 0; i < rows; ++i) {                                               \
+            const record *r = block->records[i];                                           \
+            list(record, PUT, FE__NO_FIELD, FE__NO_FIELD)                                  \
+        }                                                                                  \
+    }                                                                                      \
+    static void take_##name(const unsigned char *in, fe_handle number, void *room)         \
+    {                                                                                      \
+        record *r = room;                                                                  \
+        list(record, TAKE, FE__NO_FIELD, FE__NO_FIELD)(void) in, (void)number;             \
+    }                                                                                      \
+    static uint32_t doubt_##name(const unsigned char *in, int32_t rows)                    \
+    {                                                                                      \
+        const record *r = NULL;                                                            \
+        uint32_t doubts = 0;                                                               \
+        for (int32_t i = 0; i < rows; ++i) {                                               \
+            list(record, DOUBT, FE__NO_FIELD, FE__NO_FIELD)                                \
+        }                                                                                  \
+        (void)r;                                                                           \
+        return doubts >> 31;                                                               \
+    }                                                                                      \
+    _Static_assert(name##_size > 0, #name " has no state")
 
 DEFINE(world_fields, fe__world_row, WORLD);
 DEFINE(slot_fields, fe__id_slot, SLOT);
@@ -228,20 +261,29 @@ DEFINE(tree_fields, fe__tree, TREE);
 DEFINE(node_fields, fe__tree_node, NODE);
 
 // Of each type of joint, the words behind the front
-#define SETTINGS(def)                                                                            \
-    {                                                                                            \
-        "setting", 0, FE__U32, FE__RANGE_ANY, (sizeof(def) - FE__JOINT_FRONT) / sizeof(uint32_t) \
-    }
-static const fe__field distance_fields[] = {SETTINGS(fe_distance_joint_def)};
-static const fe__field ball_fields[] = {SETTINGS(fe_ball_joint_def)};
-static const fe__field hinge_fields[] = {SETTINGS(fe_hinge_joint_def)};
-static const fe__field fixed_fields[] = {SETTINGS(fe_fixed_joint_def)};
-static const fe__field configurable_fields[] = {SETTINGS(fe_configurable_joint_def)};
+#define SETTINGS(name, def)                                                                                     \
+    enum { name##_size = sizeof(def) - FE__JOINT_FRONT };                                                       \
+    static const fe__field name[] = {                                                                           \
+        {"setting", 0, FE__U32, FE__RANGE_ANY, (uint16_t)(name##_size / sizeof(uint32_t))}};                    \
+    static void put_##name(const fe__rows_block *block, int32_t rows, unsigned char *out)                       \
+    {                                                                                                           \
+        for (int32_t i = 0; i < rows; ++i) out = fe__put_numbers(out, block->records[i], name##_size, FE__U32); \
+    }                                                                                                           \
+    static void take_##name(const unsigned char *in, fe_handle number, void *record)                            \
+    {                                                                                                           \
+        (void)fe__take_numbers(in, record, name##_size, FE__U32, number);                                       \
+    }                                                                                                           \
+    static uint32_t doubt_##name(const unsigned char *in, int32_t rows) { return (void)in, (void)rows, 0; }
+SETTINGS(distance_fields, fe_distance_joint_def)
+SETTINGS(ball_fields, fe_ball_joint_def)
+SETTINGS(hinge_fields, fe_hinge_joint_def)
+SETTINGS(fixed_fields, fe_fixed_joint_def)
+SETTINGS(configurable_fields, fe_configurable_joint_def)
 
-#define TABLE(name, fields, record, rows)                                                                            \
-    {                                                                                                                \
-        name, fields, sizeof(fields) / sizeof *(fields), (int32_t)sizeof(record), fe__count_##rows, fe__next_##rows, \
-            fe__##rows##_at                                                                                          \
+#define TABLE(name, fields, record, rows)                                                                    \
+    {                                                                                                        \
+        name, fields, sizeof(fields) / sizeof *(fields), fields##_size, fe__count_##rows, fe__gather_##rows, \
+            put_##fields, take_##fields, doubt_##fields                                                      \
     }
 
 const fe__table fe__tables[FE__TABLES] = {

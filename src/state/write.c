@@ -1,22 +1,15 @@
-// write.c - see write.h. A table is written in blocks of rows: their records are found once, then read column by column
-// while they are in the cache.
+// write.c - see write.h. A table is written in blocks of rows: their records are found, then copied.
 #include "state/write.h"
 
 #include "core/bytes.h"
 #include "core/hash.h"
+#include "state/rows.h"
 #include "state/sum.h"
 #include "store/asset_bytes.h"
 
 #include <string.h>
 
 const unsigned char fe__snapshot_magic[8] = {'F', 'E', 'A', 'S', 'N', 'A', 'P', 0x1A};
-
-int64_t fe__row_size(const fe__table *table)
-{
-    int64_t size = 0;
-    for (int32_t i = 0; i < table->field_count; ++i) size += fe__field_size(table->fields + i);
-    return size;
-}
 
 uint64_t fe__header_sum(const unsigned char *header)
 {
@@ -32,74 +25,15 @@ uint64_t fe__header_sum(const unsigned char *header)
     return fe__hash_end(&hash);
 }
 
-// ---- columns -------------------------------------------------------------------------------------------------------
-static void put_swapped(unsigned char *out, const unsigned char *in, const fe__field *field)
-{
-    uint32_t size = fe__kind_size(field->kind);
-    for (uint32_t i = 0; i < field->count; ++i, in += size)
-        for (uint32_t k = 0; k < size; ++k) *out++ = in[size - 1 - k];
-}
-
-static void put_names(unsigned char *out, const unsigned char *in, const fe__field *field)
-{
-    const fe_handle number = (fe_handle)FE_ID_LAST_NUMBER << FE_ID_NUMBER_SHIFT;
-    for (uint32_t i = 0; i < field->count; ++i, in += sizeof number) {
-        fe_handle handle;
-        memcpy(&handle, in, sizeof handle);
-        out = fe__put_u64(out, handle & ~number);
-    }
-}
-
-#define COPY(bytes)                                                                                       \
-    case bytes:                                                                                           \
-        for (int32_t i = 0; i < count; ++i, out += bytes) memcpy(out, records[i] + field->offset, bytes); \
-        return;
-
-// The sizes that most fields have are copied without a call
-static void put_column(const fe__field *field, const unsigned char *const *records, int32_t count, unsigned char *out)
-{
-    uint32_t size = fe__field_size(field);
-    if (field->kind == FE__NAME) {
-        for (int32_t i = 0; i < count; ++i, out += size) put_names(out, records[i] + field->offset, field);
-        return;
-    }
-    if (!FE_IS_LITTLE_ENDIAN) {
-        for (int32_t i = 0; i < count; ++i, out += size) put_swapped(out, records[i] + field->offset, field);
-        return;
-    }
-    switch (size) {
-        COPY(4)
-        COPY(8)
-        COPY(12)
-        COPY(16)
-        COPY(64)
-    default:
-        for (int32_t i = 0; i < count; ++i, out += size) memcpy(out, records[i] + field->offset, size);
-    }
-}
-
-enum { BLOCK = 64 }; // rows
-
-typedef struct block {
-    const unsigned char *records[BLOCK];
-    _Alignas(16) unsigned char rooms[BLOCK][FE__ROOM];
-} block;
-
+// ---- rows ----------------------------------------------------------------------------------------------------------
 static void put_rows(const fe_world *world, const fe__table *table, int32_t rows, unsigned char *out)
 {
-    block b;
-    for (int32_t first = 0, place = -1; first < rows; first += BLOCK) {
-        int32_t count = fe__mini(rows - first, BLOCK);
-        for (int32_t i = 0; i < count; ++i) {
-            place = table->next(world, place);
-            b.records[i] = table->at(world, place, b.rooms[i]);
-        }
-        unsigned char *column = out;
-        for (int32_t f = 0; f < table->field_count; ++f) {
-            int64_t size = fe__field_size(table->fields + f);
-            put_column(table->fields + f, b.records, count, column + size * first);
-            column += size * rows;
-        }
+    fe__rows_block block;
+    for (int32_t first = 0, place = -1; first < rows; first += FE__BLOCK) {
+        int32_t count = fe__mini(rows - first, FE__BLOCK);
+        place = table->gather(world, place, count, &block);
+        table->put(&block, count, out);
+        out += (int64_t)count * table->row_size;
     }
 }
 
@@ -129,7 +63,7 @@ static void write_table(writer *w, const fe_world *world, uint32_t number)
     const fe__table *table = fe__tables + number;
     int32_t rows = table->count(world);
     put_rows(world, table, rows, fe__put_u64(w->at + FE__SECTION_HEADER, (uint64_t)rows));
-    close_section(w, number, FE__SECTION_ROWS + rows * fe__row_size(table));
+    close_section(w, number, FE__SECTION_ROWS + (int64_t)rows * table->row_size);
 }
 
 // ---- contents of assets ---------------------------------------------------------------------------------------------
@@ -162,14 +96,13 @@ static int64_t assets_size(const fe_world *world)
 // By the slots of their first users: the order of the store's own numbers is no state
 static void write_assets(writer *w, const fe_world *world)
 {
-    const fe__table *table = fe__tables + FE__TABLE_ASSETS;
     for (int32_t row = 0, shape = -1; row < world->use_count; ++row) {
-        shape = table->next(world, shape);
+        shape = fe__next_asset_user(world, shape);
         const fe__asset *asset = fe__store_parent(world->store, world->shapes[shape].form.field);
         if (asset->kind == FE__ASSET_COMPOUND) continue;
         int32_t is_first = 1;
         for (int32_t i = 0, other = -1; i < row && is_first; ++i) {
-            other = table->next(world, other);
+            other = fe__next_asset_user(world, other);
             is_first = fe__store_parent(world->store, world->shapes[other].form.field) != asset;
         }
         if (!is_first) continue;

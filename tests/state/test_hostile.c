@@ -1,25 +1,9 @@
 // test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and
 // nothing changed; or the world lives: it steps, it is saved, and what is read of it is a number.
-#include "fe_test.h"
+#include "state/snapshot_bytes.h"
 #include "support/play.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-enum { HEADER = 48, SECTION = 24, AT_NUMBER = 20, AT_SIZE = 24, AT_SUM = 32, AT_SECTIONS = 40, NUMBER = 7 };
-
-typedef struct bytes {
-    unsigned char *data;
-    int64_t size;
-} bytes;
-
-static bytes save(const fe_world *world)
-{
-    bytes b = {NULL, fe_world_save(world, NULL, NULL, 0)};
-    b.data = malloc((size_t)b.size);
-    FE_TRUE(b.data && fe_world_save(world, NULL, b.data, b.size) == b.size);
-    return b;
-}
+enum { NUMBER = 7 };
 
 // With the contents of its assets, where it may be: the last user of a destroyed one takes it along
 static bytes save_whole(const fe_world *world)
@@ -42,49 +26,6 @@ static fe_world *new_world(void)
     def.number = NUMBER;
     FE_TRUE(fe_world_create(&def, &world) == FE_OK);
     return world;
-}
-
-// ---- right sums, by code of its own ---------------------------------------------------------------------------------
-static uint64_t take(const unsigned char *at, int32_t size)
-{
-    uint64_t x = 0;
-    for (int32_t k = size - 1; k >= 0; --k) x = x << 8 | at[k];
-    return x;
-}
-
-static void put(unsigned char *at, uint64_t x)
-{
-    for (int32_t k = 0; k < 8; ++k) at[k] = (unsigned char)(x >> 8 * k);
-}
-
-static uint64_t sum_of(const unsigned char *at, uint64_t size)
-{
-    fe__hash lanes[4], sum = fe__hash_begin();
-    for (int k = 0; k < 4; ++k) lanes[k] = fe__hash_begin();
-    for (uint64_t i = 0; i < size / 8; ++i) fe__hash_u64(lanes + i % 4, take(at + 8 * i, 8));
-    for (int k = 0; k < 4; ++k) fe__hash_u64(&sum, fe__hash_end(lanes + k));
-    return fe__hash_end(&sum);
-}
-
-static uint64_t join(uint64_t sum, uint64_t other) { return (sum ^ other) * UINT64_C(0x9E3779B97F4A7C15) + 1; }
-
-static void mend(bytes b)
-{
-    uint64_t sum = 0;
-    for (int64_t at = HEADER; at + SECTION <= b.size;) {
-        uint64_t size = take(b.data + at + 8, 8);
-        if (size > (uint64_t)(b.size - at - SECTION)) return;
-        put(b.data + at + 16, sum_of(b.data + at + SECTION, size));
-        sum = join(sum, take(b.data + at + 16, 8));
-        at += SECTION + (int64_t)size;
-    }
-    fe__hash hash = fe__hash_begin();
-    fe__hash_u64(&hash, take(b.data, 8));
-    fe__hash_u64(&hash, take(b.data + 8, 8));
-    fe__hash_u64(&hash, take(b.data + 16, 4));
-    fe__hash_u64(&hash, take(b.data + 24, 8));
-    fe__hash_u64(&hash, take(b.data + AT_SECTIONS, 8));
-    put(b.data + AT_SUM, join(sum, fe__hash_end(&hash)));
 }
 
 // ---- the scene: each form, joints, trees, sleep, events, what is free and what is ignored ---------------------------
@@ -209,46 +150,6 @@ static void only_what_says_so_is_skipped(void **state)
     free(before.data);
     free(after.data);
     FE_TRUE(fe_world_destroy(world) == FE_OK);
-}
-
-static uint32_t draw(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return *seed >> 8;
-}
-
-// Of a section a number of 1, 2, 4 or 8 bytes becomes another: any, one nearby, one of another place, a corner of its
-// type
-static void alter(bytes b, uint32_t *seed)
-{
-    static const uint64_t corners[] = {0,          1,          UINT64_MAX, 0x7fffffff, 0x80000000,
-                                       0x7f800000, 0x7fc00000, 0xff800000, 0x7f7fffff, 0x00000001};
-    int64_t sections = 0, at = HEADER, skip;
-    while (at < b.size) ++sections, at += SECTION + (int64_t)take(b.data + at + 8, 8);
-    for (at = HEADER, skip = draw(seed) % sections; skip > 0; --skip) at += SECTION + (int64_t)take(b.data + at + 8, 8);
-    int64_t size = (int64_t)take(b.data + at + 8, 8), width = 4;
-    if (size <= 8) return;
-    int64_t place = draw(seed) % 16 == 0 ? 0 : 8 + draw(seed) % ((size - 8) / 4) * 4;
-    if (place + width > size) return;
-    unsigned char *to = b.data + at + SECTION + place;
-    uint64_t x = take(to, 4);
-    switch (draw(seed) % 5) {
-    case 0:
-        x = draw(seed) ^ draw(seed) << 16;
-        break;
-    case 1:
-        x += draw(seed) % 5 - 2;
-        break;
-    case 2:
-        x = take(b.data + at + SECTION + 8 + draw(seed) % ((size - 8) / 4) * 4, 4);
-        break;
-    case 3:
-        x ^= UINT64_C(1) << draw(seed) % 32;
-        break;
-    default:
-        x = corners[draw(seed) % (sizeof corners / sizeof *corners)];
-    }
-    for (int k = 0; k < 4; ++k) to[k] = (unsigned char)(x >> 8 * k);
 }
 
 static void random_numbers_are_refused_or_live_in(const script *s, int32_t steps, int32_t rounds)

@@ -18,6 +18,27 @@ namespace FeatherPhysics
         public AssetHandle[] Assets;
     }
 
+    /// <summary>Where two snapshots first differ.</summary>
+    public sealed class Difference
+    {
+        /// <summary>"body", "shape", "joint", "pair", "world", or a list by its name.</summary>
+        public string Kind;
+        /// <summary>Which number of it; "there": one of the two does not have it.</summary>
+        public string Field;
+        /// <summary>The value in the first snapshot, as text.</summary>
+        public string A;
+        /// <summary>The value in the second one.</summary>
+        public string B;
+        /// <summary>The body, shape or joint, of a pair the first shape. 0: it has none.</summary>
+        public ulong Handle;
+        /// <summary>Of a pair the second shape.</summary>
+        public ulong Other;
+        /// <summary>Of a list's entry or an event, from 0.</summary>
+        public int Index;
+        /// <summary>Of a field of several numbers, from 0.</summary>
+        public int Element;
+    }
+
     /// <summary>What a snapshot says of itself, without a world.</summary>
     public static unsafe class Snapshot
     {
@@ -45,6 +66,34 @@ namespace FeatherPhysics
             fixed (AssetKey* out_ = &MemoryMarshal.GetReference(keys))
                 return Native.snapshot_get_assets(OrEmpty(start, &none), bytes.Length, out_, (uint)sizeof(AssetKey),
                     keys.Length);
+        }
+
+        static string Text(byte* first)
+        {
+            int length = 0;
+            while (first[length] != 0) ++length;
+            return System.Text.Encoding.ASCII.GetString(first, length);
+        }
+
+        /// <summary>
+        /// Where two worlds first differ, told from their bytes: settings, then bodies, shapes, joints and pairs, each
+        /// kind in the order of creation, then lists and events. null: nowhere.
+        /// </summary>
+        public static Difference Compare(ReadOnlySpan<byte> first, ReadOnlySpan<byte> second)
+        {
+            NativeDifference found;
+            Native.difference_init(&found, (uint)sizeof(NativeDifference));
+            byte none = 0;
+            fixed (byte* a = &MemoryMarshal.GetReference(first))
+            fixed (byte* b = &MemoryMarshal.GetReference(second))
+                if (Native.snapshot_compare(OrEmpty(a, &none), first.Length, OrEmpty(b, &none), second.Length,
+                        &found) == 0)
+                    return null;
+            return new Difference
+            {
+                Kind = Text(&found.Kind0), Field = Text(&found.Field0), A = Text(&found.A0), B = Text(&found.B0),
+                Handle = found.Handle, Other = found.Other, Index = found.Index, Element = found.Element
+            };
         }
 
         /// An empty span has no start, and the library takes none.

@@ -172,6 +172,22 @@ namespace FeatherPhysics.Tests
             }
         }
 
+        public static void The_first_difference_is_named()
+        {
+            using (Store store = new Store())
+            using (World world = Pile(store, 1))
+            {
+                Run(world, 12);
+                byte[] saved = world.Save();
+                Check.True(Snapshot.Compare(saved, world.Save()) == null, "none");
+                world.Gravity = new Vector3(0, -2.5f, 0);
+                Difference found = Snapshot.Compare(saved, world.Save());
+                Check.True(found.Kind == "world" && found.Field == "gravity" && found.Element == 1, "where");
+                Check.True(found.B == "-2.5" && found.A != found.B && found.Handle == 0, "values");
+                Check.Throws<BadDataException>(() => Snapshot.Compare(saved, null), "b: there are 0 bytes");
+            }
+        }
+
         public static void Assets_have_keys_of_their_content()
         {
             using (World world = new World(), other = new World())

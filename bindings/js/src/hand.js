@@ -288,13 +288,31 @@ const restoreOptions = (at, options) => {
     return at;
 };
 
+// What World.getMoved gives: handles become numbers when they are asked for
+class Moved {
+    #area;
+    #ids = new Float64Array(64);
+    #read = true;
+    count = 0;
+    poses = new Float32Array(0);
+    constructor(area) { this.#area = area; }
+    renew(count, poses) { return this.count = count, this.poses = poses, this.#read = false, this; }
+    get ids() {
+        if (this.#read) return this.#ids;
+        const n = this.count;
+        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
+        for (let k = 0, i = this.#area.at >> 2; k < n; ++k, i += 2) this.#ids[k] = u32[i] + u32[i + 1] * 4294967296;
+        this.#read = true;
+        return this.#ids;
+    }
+}
+
 const HIT = api.HIT_BYTES, VERTEX = api.VERTEX_BYTES, INSTANCE = api.INSTANCE_BYTES;
 
 export class World extends api.WorldCalls {
     #areas = { moved: new Area(), poses: new Area(), hits: new Area(), lines: new Area(), triangles: new Area(), points: new Area(), instances: new Area() };
     #views = {};
-    #moved = { count: 0, ids: new Float64Array(0), poses: new Float32Array(0) };
-    #ids = new Float64Array(64);
+    #moved = new Moved(this.#areas.moved);
     constructor(options) {
         super();
         reset();
@@ -365,12 +383,7 @@ export class World extends api.WorldCalls {
             const at = poses.need(4 * FLOATS_OF_POSE * n);
             ok(x.fe_world_get_transforms_f32(w, moved.at, dvec3(scratch, origin ?? ZERO, 'origin'), at, 0, n));
         }
-        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
-        const ids = this.#ids;
-        for (let k = 0, i = moved.at >> 2; k < n; ++k, i += 2) ids[k] = u32[i] + u32[i + 1] * 4294967296;
-        this.#moved.count = n, this.#moved.ids = ids;
-        this.#moved.poses = this.#view('moved', Float32Array, poses.at, poses.bytes >> 2);
-        return this.#moved;
+        return this.#moved.renew(n, this.#view('moved', Float32Array, poses.at, poses.bytes >> 2));
     }
     #view(name, type, at, length) { return (this.#views[name] ??= new View(type)).get(at, length); }
 

@@ -58,6 +58,17 @@ test('a falling box, as by hand', () => {
     world.destroy();
 });
 
+test('vectors of other libraries, which have a length() of their own', () => {
+    class Vector { constructor(...of) { [this.x, this.y, this.z, this.w] = of; } length() { return 1; } }
+    const world = new World(), body = world.createBody({ position: new Vector(1, 2, 3), rotation: new Vector(0, 0, 1, 0) });
+    body.addSphere(1);
+    body.linearVelocity = new Vector(4, 5, 6);
+    assert.deepEqual([body.position, body.linearVelocity], [{ x: 1, y: 2, z: 3 }, { x: 4, y: 5, z: 6 }]);
+    assert.equal(body.rotation.z, 1);
+    assert.equal(world.raycast(new Vector(1, 9, 3), new Vector(0, -9, 0)).body, body.id);
+    world.destroy();
+});
+
 test('0 and -0 give the same bits', () => {
     const play = (zero) => {
         const world = new World(), body = world.createBody({ position: [zero, 1, zero], linearVelocity: [zero, zero, 1], userData: 0 });

@@ -123,6 +123,7 @@ local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
+    fe_snapshot_compare = true,
 }
 -- for hosts in C
 local function is_of_recordings(name) return name:find("^fe_recorder") or name:find("^fe_player") or name:find("^fe_div") end

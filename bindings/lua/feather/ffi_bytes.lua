@@ -88,4 +88,13 @@ function core.snapshot_get_assets(bytes)
     return count, keys
 end
 
+core.text = ffi.string
+local Difference = ffi.typeof("fe_difference")
+function core.snapshot_compare(a, b)
+    local found = Difference()
+    found.struct_size = ffi.sizeof(Difference)
+    local result = C.fe_snapshot_compare(check_bytes(a), #a, check_bytes(b), #b, found)
+    if env.check(tonumber(result)) == 1 then return found end
+end
+
 end

@@ -24,4 +24,5 @@ return {
     loadWorld = snapshots.load,
     checkSnapshot = snapshots.check,
     getSnapshotAssets = snapshots.get_assets,
+    compareSnapshots = snapshots.compare,
 }

@@ -61,4 +61,19 @@ function snapshots.check(bytes) return options.read(core.snapshot_check(bytes), 
 -- The keys of the assets that it needs, as asset:getKey() has them.
 function snapshots.get_assets(bytes) return (select(2, core.snapshot_get_assets(bytes))) end
 
+-- A text of a record, which is an array of characters in LuaJIT
+local text = core.text or tostring
+
+-- Where two worlds first differ, of their strings: nil, or { kind, field, a, b, handle, other, index, element }, the
+-- values as texts. Elements and entries of lists count from 1.
+function snapshots.compare(a, b)
+    local found = core.snapshot_compare(a, b)
+    if not found then return nil end
+    return {
+        kind = text(found.kind), field = text(found.field), a = text(found.a), b = text(found.b),
+        handle = tonumber(found.handle), other = tonumber(found.other), index = found.index + 1,
+        element = found.element + 1,
+    }
+end
+
 return snapshots

@@ -258,6 +258,19 @@ function TestSnapshots.testWhatASnapshotTells()
     lu.assertEquals(feather.checkSnapshot(world:save()).inside, 0)
 end
 
+function TestSnapshots.testTheFirstDifference()
+    local world = scene({ number = 21 })
+    steps(world, 7)
+    local saved = world:save()
+    lu.assertNil(feather.compareSnapshots(saved, world:save()))
+    world:setGravity(0, -2.5, 0)
+    lu.assertEquals(feather.compareSnapshots(saved, world:save()).b, "-2.5")
+    local found = feather.compareSnapshots(world:save(), saved)
+    lu.assertEquals({ found.kind, found.field, found.element, found.a }, { "world", "gravity", 2, "-2.5" })
+    lu.assertEquals({ found.handle, found.other, found.index }, { 0, 0, 1 })
+    fails("b: ", feather.compareSnapshots, saved, "")
+end
+
 -- Every place that takes a snapshot refuses these by name, and nothing changes.
 function TestSnapshots.testBytesThatAreNoSnapshot()
     local world, _, hull = scene()

@@ -44,6 +44,7 @@ from .records import (
     ContactPoint,
     Counters,
     Cylinder,
+    Difference,
     Energy,
     Filter,
     FilterPair,
@@ -73,7 +74,7 @@ from .records import (
     Tuning,
     Vector,
 )
-from .snapshot import snapshot_assets, snapshot_info
+from .snapshot import compare_snapshots, snapshot_assets, snapshot_info
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .world import Pool, World
 
@@ -95,6 +96,7 @@ __all__ = [
     "Cylinder",
     "DataError",
     "DegenerateError",
+    "Difference",
     "DivergedError",
     "Energy",
     "FeatherError",
@@ -146,6 +148,7 @@ __all__ = [
     "VersionError",
     "World",
     "WrongKindError",
+    "compare_snapshots",
     "snapshot_assets",
     "snapshot_info",
 ]

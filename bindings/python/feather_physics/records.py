@@ -297,6 +297,19 @@ class SnapshotInfo(NamedTuple):
     filter: bool
 
 
+class Difference(NamedTuple):
+    """Where two snapshots first differ; see fe_difference in feather.h. `a` and `b` are the values as text."""
+
+    kind: str
+    field: str
+    index: int
+    element: int
+    handle: int
+    other: int
+    a: str
+    b: str
+
+
 class HullInfo(NamedTuple):
     """What a hull is; see fe_hull_info in feather.h. The inertia is that of a density of 1 kg/m3."""
 

@@ -1,6 +1,6 @@
 """Worlds as bytes, looked at without a world: World.save() makes them, World.load() and world.restore() read them."""
 
-from typing import Any, List
+from typing import Any, List, Optional
 
 from . import _flat, records
 
@@ -17,3 +17,10 @@ def snapshot_assets(data: Any) -> List[str]:
     scales is there several times."""
     found = records.read_all(_flat.snapshot_get_assets, records.ASSET_KEY, data)
     return [f"{first:016x}{second:016x}" for first, second in found]
+
+
+def compare_snapshots(first: Any, second: Any) -> Optional[records.Difference]:
+    """Where two worlds first differ, told from their bytes: settings, bodies, shapes, joints, pairs, each kind in the
+    order of creation, then lists. None: nowhere."""
+    found = _flat.snapshot_compare(first, second)
+    return None if found is None else records.copy_record(records.Difference, found)

@@ -19,6 +19,7 @@ from feather_physics import (
     Store,
     UnsupportedError,
     World,
+    compare_snapshots,
     snapshot_assets,
     snapshot_info,
 )
@@ -116,6 +117,24 @@ def test_what_a_snapshot_says_of_itself() -> None:
     assert field.key != other.create_heightfield(high).key
     other.create_body("static").add(field)
     assert snapshot_assets(other.save()) == [field.key] and snapshot_assets(World().save()) == []
+
+
+def test_the_first_difference_is_named() -> None:
+    world = pile()
+    play(world, 7)
+    saved = world.save()
+    assert compare_snapshots(saved, world.save()) is None
+    body = world.bodies[3]
+    body.user_data = None
+    x, y, z = body.velocity
+    body.velocity = (x, y + 0.5, z)
+    found = compare_snapshots(saved, bytearray(world.save()))
+    assert found is not None and (found.kind, found.field, found.element) == ("body", "velocity", 1)
+    assert found.handle == body.id and float(found.b) == body.velocity.y and found.other == found.index == 0
+    with pytest.raises(DataError, match="b: "):
+        compare_snapshots(saved, b"")
+    with pytest.raises(TypeError):
+        compare_snapshots(saved, None)
 
 
 def test_wrong_bytes_change_nothing() -> None:
