@@ -11,6 +11,7 @@ int bench_command_state(int argc, char **argv);
 int bench_command_history(int argc, char **argv);
 int bench_command_record(int argc, char **argv);
 int bench_command_replay(int argc, char **argv);
+int bench_command_play(int argc, char **argv);
 int bench_command_scenes(int argc, char **argv);
 int bench_command_run(int argc, char **argv);
 int bench_command_compare(int argc, char **argv);

@@ -3,6 +3,7 @@
 
 #include "core/bytes.h"
 #include "record/chunks.h"
+#include "record/op_write.h"
 #include "state/write.h"
 #include "store/asset_bytes.h"
 #include "world/asset_users.h"
@@ -147,34 +148,33 @@ static int32_t is_whole(const fe_world *w, int32_t asset)
     return 1;
 }
 
-static void write_edit(fe_recorder *r, int32_t number, fe_asset handle, const int32_t *counts, int32_t count_count,
-                       const uint32_t *words, int64_t word_count)
-{
-    const int64_t word = sizeof(uint32_t);
-    unsigned char *at = fe__op_begin(r, number, (int64_t)sizeof handle + word * (count_count + word_count));
-    if (!at) return;
-    at = fe__put_u64(at, handle);
-    for (int32_t i = 0; i < count_count; ++i) at = fe__put_i32(at, counts[i]);
-    for (int64_t i = 0; i < word_count; ++i) at = fe__put_u32(at, words[i]);
-    fe__op_end(r, at);
-}
-
 typedef struct edit {
     int32_t number, count_count;
     int32_t counts[4];
-    const void *words;
-    int64_t word_count;
+    const void *records;
+    int32_t record_count;
+    size_t size; // bytes of one
+    const fe__words *words;
 } edit;
+
+static void write_edit(fe_recorder *r, fe_asset handle, const edit *e)
+{
+    size_t most = sizeof handle + sizeof e->counts + e->size * (size_t)e->record_count;
+    unsigned char *at = fe__op_begin(r, e->number, (int64_t)most);
+    if (!at) return;
+    at = fe__put_u64(at, handle);
+    for (int32_t i = 0; i < e->count_count; ++i) at = fe__put_i32(at, e->counts[i]);
+    fe__op_end(r, fe__put_array(at, e->records, 0, e->record_count, e->size, e->words));
+}
 
 // Under the store's lock: the calls above would take it again
 static void record_edit(fe_store *store, int32_t asset, const edit *e)
 {
     for (fe__store_member *m = store->first_member; m; m = m->next) {
-        fe_recorder *r = m->world->recorder;
-        if (!r || !fe__uses_asset(m->world, asset)) continue;
+        fe_recorder *r = fe__uses_asset(m->world, asset) ? m->world->recorder : NULL; // others are not entered
+        if (!r) continue;
         if (is_whole(m->world, asset)) {
-            write_edit(r, e->number, fe__store_asset(store, asset)->handle, e->counts, e->count_count, e->words,
-                       e->word_count);
+            write_edit(r, fe__store_asset(store, asset)->handle, e);
             continue;
         }
         fe__mutex_lock(&r->lock);
@@ -183,17 +183,21 @@ static void record_edit(fe_store *store, int32_t asset, const edit *e)
     }
 }
 
+static const fe__words height_words[] = {{4, 1}, {0, 0}};
+static const fe__words material_words[] = {{4, 10}, {8, 1}, {0, 0}};
+
 void fe__record_heights(fe_store *store, int32_t asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                         const float *heights)
 {
-    record_edit(store, asset,
-                &(edit){FE__OP_HEIGHTS, 4, {row, column, rows, columns}, heights, (int64_t)rows * columns});
+    const edit e = {FE__OP_HEIGHTS,  4,           {row, column, rows, columns}, heights, rows * columns,
+                    sizeof *heights, height_words};
+    record_edit(store, asset, &e);
 }
 
 void fe__record_materials(fe_store *store, int32_t asset)
 {
     const fe__asset *a = fe__store_asset(store, asset);
-    const int64_t words = sizeof *a->materials / sizeof(uint32_t);
-    record_edit(store, asset,
-                &(edit){FE__OP_MATERIALS, 1, {a->material_count}, a->materials, words * a->material_count});
+    const edit e = {FE__OP_MATERIALS, 1, {a->material_count}, a->materials, a->material_count, sizeof *a->materials,
+                    material_words};
+    record_edit(store, asset, &e);
 }

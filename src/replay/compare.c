@@ -30,10 +30,11 @@ typedef struct trace_field {
     int32_t first, count; // bytes
 } trace_field;
 
-static const trace_field fields[] = {{"position", FE__TRACE_POSITION, 3},
-                                     {"rotation", FE__TRACE_ROTATION, 4},
-                                     {"linear velocity", FE__TRACE_VELOCITY, 3},
+// Velocities first: a pose that differs follows from one
+static const trace_field fields[] = {{"linear velocity", FE__TRACE_VELOCITY, 3},
                                      {"angular velocity", FE__TRACE_SPIN, 3},
+                                     {"position", FE__TRACE_POSITION, 3},
+                                     {"rotation", FE__TRACE_ROTATION, 4},
                                      {"pending forces", FE__TRACE_FORCES, 1},
                                      {"sleep timer", FE__TRACE_SLEEP, 1},
                                      {"contacts", FE__TRACE_CONTACTS, 1}};

@@ -8,7 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_STEPS = 400, KEYFRAMES = 97 };
+#ifdef FE_SANITIZED
+enum { MOST_STEPS = 70, KEYFRAMES = 31 };
+#else
+enum { MOST_STEPS = 200, KEYFRAMES = 97 };
+#endif
 
 static fe_world *new_world(int32_t workers)
 {

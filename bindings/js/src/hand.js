@@ -1,5 +1,5 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
-import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
 import * as api from './api.js';
 const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def } = api;
 
@@ -21,9 +21,7 @@ class Area {
     bytes = 0;
     need(bytes) {
         if (bytes <= this.bytes) return this.at;
-        const size = Math.max(bytes, 2 * this.bytes, 1024), at = x.malloc(size);
-        if (!at) throw new FeatherError('FE_ERROR_MEMORY', `no memory for an array of ${bytes} bytes`);
-        ok(0); // memory may have grown
+        const size = Math.max(bytes, Math.min(2 * this.bytes, 2 ** 30), 1024), at = allocate(size);
         x.free(this.at);
         return this.bytes = size, this.at = at;
     }
@@ -206,11 +204,10 @@ export class Bodies {
         const n = bodies?.length;
         if (!Number.isInteger(n)) wrong('bodies', 'an array', bodies);
         this.count = n;
-        const given = Array.from(bodies, (b, k) => handle(b, `bodies[${k}]`));
-        this.#handles.need(8 * n);
-        u64.set(given, this.#handles.at >> 3);
         const areas = [this.#handles, this.#values];
         free.register(this, () => areas.forEach((a) => a.end()), this);
+        const at = this.#handles.need(8 * n) >> 3;
+        for (let k = 0; k < n; ++k) u64[at + k] = handle(bodies[k], `bodies[${k}]`);
     }
     destroy() { free.unregister(this), this.#handles.end(), this.#values.end(), this.count = 0; }
     [dispose]() { this.destroy(); }
@@ -288,13 +285,31 @@ const restoreOptions = (at, options) => {
     return at;
 };
 
+// What World.getMoved gives: handles become numbers when they are asked for
+class Moved {
+    #area;
+    #ids = new Float64Array(64);
+    #read = true;
+    count = 0;
+    poses = new Float32Array(0);
+    constructor(area) { this.#area = area; }
+    renew(count, poses) { return this.count = count, this.poses = poses, this.#read = false, this; }
+    get ids() {
+        if (this.#read) return this.#ids;
+        const n = this.count;
+        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
+        for (let k = 0, i = this.#area.at >> 2; k < n; ++k, i += 2) this.#ids[k] = u32[i] + u32[i + 1] * 4294967296;
+        this.#read = true;
+        return this.#ids;
+    }
+}
+
 const HIT = api.HIT_BYTES, VERTEX = api.VERTEX_BYTES, INSTANCE = api.INSTANCE_BYTES;
 
 export class World extends api.WorldCalls {
     #areas = { moved: new Area(), poses: new Area(), hits: new Area(), lines: new Area(), triangles: new Area(), points: new Area(), instances: new Area() };
     #views = {};
-    #moved = { count: 0, ids: new Float64Array(0), poses: new Float32Array(0) };
-    #ids = new Float64Array(64);
+    #moved = new Moved(this.#areas.moved);
     constructor(options) {
         super();
         reset();
@@ -365,12 +380,7 @@ export class World extends api.WorldCalls {
             const at = poses.need(4 * FLOATS_OF_POSE * n);
             ok(x.fe_world_get_transforms_f32(w, moved.at, dvec3(scratch, origin ?? ZERO, 'origin'), at, 0, n));
         }
-        if (this.#ids.length < n) this.#ids = new Float64Array(2 * n);
-        const ids = this.#ids;
-        for (let k = 0, i = moved.at >> 2; k < n; ++k, i += 2) ids[k] = u32[i] + u32[i + 1] * 4294967296;
-        this.#moved.count = n, this.#moved.ids = ids;
-        this.#moved.poses = this.#view('moved', Float32Array, poses.at, poses.bytes >> 2);
-        return this.#moved;
+        return this.#moved.renew(n, this.#view('moved', Float32Array, poses.at, poses.bytes >> 2));
     }
     #view(name, type, at, length) { return (this.#views[name] ??= new View(type)).get(at, length); }
 

@@ -92,12 +92,17 @@ export const lastError = () => text(x.fe_last_error());
 
 // ---- memory for one call --------------------------------------------------------------------------------------------
 
+const MOST = 2 ** 31; // bytes of an array; beyond 2^32 the module would take a size for a smaller one
+export function allocate(bytes) {
+    const made = bytes < MOST ? x.malloc(bytes) : 0;
+    if (!made) throw new FeatherError('FE_ERROR_MEMORY', `no memory for an array of ${bytes} bytes`);
+    if (f32.length === 0) renew();
+    return made;
+}
 function grow(bytes) {
-    const made = x.malloc(bytes);
-    if (!made) throw new FeatherError('FE_ERROR_MEMORY', 'no memory for an array of ' + bytes + ' bytes');
+    const made = allocate(bytes);
     if (block) spent.push(block);
     block = made, blockSize = bytes, top = 0;
-    if (f32.length === 0) renew();
 }
 // Begins a call: what the last one's arrays lay in is free again
 export function reset() {
@@ -105,7 +110,7 @@ export function reset() {
     while (spent.length) x.free(spent.pop());
 }
 export function temp(bytes) {
-    if (top + bytes > blockSize) grow(Math.max(2 * blockSize, bytes + 64));
+    if (top + bytes > blockSize) grow(Math.max(Math.min(2 * blockSize, MOST / 2), bytes + 64));
     const at = block + top;
     top = (top + bytes + 15) & ~15;
     return at;
@@ -156,12 +161,12 @@ export function nameOf(words, value) {
     return names.get(value) ?? value;
 }
 
-// ---- vectors: { x, y, z } or anything with numbers at 0, 1, 2 ---------------------------------------------------------
+// ---- vectors: { x, y, z } or an array; vectors of three.js have a function called length ------------------------------
 
 export function vec3(at, v, name) {
     if (v === null || typeof v !== 'object') wrong(name, 'a vector', v);
     const i = at >> 2;
-    if (v.length === undefined) f32[i] = num(v.x, name + '.x'), f32[i + 1] = num(v.y, name + '.y'), f32[i + 2] = num(v.z, name + '.z');
+    if (typeof v.length !== 'number') f32[i] = num(v.x, name + '.x'), f32[i + 1] = num(v.y, name + '.y'), f32[i + 2] = num(v.z, name + '.z');
     else if (v.length !== 3) wrong(name, 'a vector of 3 numbers', v);
     else f32[i] = num(v[0], name + '[0]'), f32[i + 1] = num(v[1], name + '[1]'), f32[i + 2] = num(v[2], name + '[2]');
     return at;
@@ -169,7 +174,7 @@ export function vec3(at, v, name) {
 export function dvec3(at, v, name) {
     if (v === null || typeof v !== 'object') wrong(name, 'a vector', v);
     const i = at >> 3;
-    if (v.length === undefined) f64[i] = num(v.x, name + '.x'), f64[i + 1] = num(v.y, name + '.y'), f64[i + 2] = num(v.z, name + '.z');
+    if (typeof v.length !== 'number') f64[i] = num(v.x, name + '.x'), f64[i + 1] = num(v.y, name + '.y'), f64[i + 2] = num(v.z, name + '.z');
     else if (v.length !== 3) wrong(name, 'a vector of 3 numbers', v);
     else f64[i] = num(v[0], name + '[0]'), f64[i + 1] = num(v[1], name + '[1]'), f64[i + 2] = num(v[2], name + '[2]');
     return at;
@@ -177,7 +182,7 @@ export function dvec3(at, v, name) {
 export function quat(at, v, name) {
     if (v === null || typeof v !== 'object') wrong(name, 'a quaternion', v);
     const i = at >> 2;
-    if (v.length === undefined) {
+    if (typeof v.length !== 'number') {
         f32[i] = num(v.x, name + '.x'), f32[i + 1] = num(v.y, name + '.y'), f32[i + 2] = num(v.z, name + '.z');
         f32[i + 3] = num(v.w, name + '.w');
     } else {

@@ -97,9 +97,12 @@ typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias))
 
 static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
 {
-    fe__quad a = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 0),
-             b = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 1),
-             c = *(const loose_quad *)fe__mesh_vertex(mesh, slot, 2);
+    const fe__mesh_leaf *leaf = mesh->leaves + (uint32_t)slot / FE__MESH_LEAF;
+    const uint8_t *corner = leaf->corner[(uint32_t)slot % FE__MESH_LEAF];
+    const float *first = mesh->vertices + 3 * (size_t)leaf->first_vertex;
+    fe__quad a = *(const loose_quad *)(first + 3 * (size_t)corner[0]),
+             b = *(const loose_quad *)(first + 3 * (size_t)corner[1]),
+             c = *(const loose_quad *)(first + 3 * (size_t)corner[2]);
     *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
     *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
 }

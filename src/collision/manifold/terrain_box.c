@@ -4,9 +4,11 @@
 // The box is centred at the origin. A direction m points out of the surface: separation(m) = -R(m) - max_i m.v_i, with
 // R(m) = sum_j half_j |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a
 // tie.
+#define FE_W 4
 #include "collision/manifold/kernels.h"
 #include "collision/form/support.h"
 #include "collision/manifold/terrain_kernels.h"
+#include "core/simd.h"
 
 enum { ON_FACE, ON_BOX_FACE, ON_EDGES };
 
@@ -34,41 +36,86 @@ static float reach(const contest *c, fe_vec3 m)
            c->half[2] * fe__absf(fe__dot(m, c->axes[2]));
 }
 
-// Both ways along an axis. 0: they are farther apart along it than the margin.
-static int32_t try_axis(contest *c, fe_vec3 m, int32_t kind, int32_t box_axis, int32_t side)
+// ---- all axes, a lane each -----------------------------------------------------------------------------------------
+// The box's, then the crosses of the triangle's sides with them: all three of a side before the next side's
+enum { AXES = 12, BOX_AXES = 3 };
+
+typedef struct axes {
+    _Alignas(16) float x[AXES], y[AXES], z[AXES]; // unit
+    _Alignas(16) float forth[AXES], back[AXES];   // separations, both ways along each
+    _Alignas(16) float upward[AXES];
+    uint32_t valid; // a bit each: edges that are all but parallel have no cross product
+} axes;
+
+static void put(axes *a, int32_t i, fe_vec3 m) { a->x[i] = m.x, a->y[i] = m.y, a->z[i] = m.z; }
+static inline wide3 spread(fe_vec3 a) { return (wide3){w_set(a.x), w_set(a.y), w_set(a.z)}; }
+
+static void set_directions(const contest *c, axes *a)
+{
+    const float parallel = 1e-3f; // sin^2 of edges whose cross product says nothing
+    const fe_vec3 *v = c->tile->form.vertex;
+    _Alignas(16) float least[AXES] = {0.0f, 0.0f, 0.0f};
+    for (int32_t j = 0; j < BOX_AXES; ++j) put(a, j, c->axes[j]);
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
+        for (int32_t j = 0; j < BOX_AXES; ++j) {
+            int32_t i = BOX_AXES * (k + 1) + j;
+            put(a, i, fe__cross(side, c->axes[j]));
+            least[i] = parallel * fe__dot(side, side);
+        }
+    }
+    a->valid = 0;
+    for (int32_t i = 0; i < AXES; i += FE_W) {
+        wide3 m = {*(const wide *)(a->x + i), *(const wide *)(a->y + i), *(const wide *)(a->z + i)};
+        wide sine = w_dot(m, m);
+        wide_mask is_cross = {i + 0 >= BOX_AXES ? -1 : 0, i + 1 >= BOX_AXES ? -1 : 0, i + 2 >= BOX_AXES ? -1 : 0, -1};
+        a->valid |= w_bits(w_or(w_not(is_cross), w_greater(sine, *(const wide *)(least + i)))) << i;
+        m = w_choose3(is_cross, w_scale(w_set(1.0f) / w_sqrt(sine), m), m);
+        *(wide *)(a->x + i) = m.x, *(wide *)(a->y + i) = m.y, *(wide *)(a->z + i) = m.z;
+    }
+}
+
+// 0: along one of them the two are farther apart than the margin
+static int32_t set_separations(const contest *c, axes *a)
 {
     const fe_vec3 *v = c->tile->form.vertex;
-    float a = fe__dot(m, v[0]), b = fe__dot(m, v[1]), d = fe__dot(m, v[2]), r = reach(c, m),
-          upward = fe__dot(m, c->tile->normal);
-    float forth = -r - fe__maxf(a, fe__maxf(b, d)), back = fe__minf(a, fe__minf(b, d)) - r;
-    if (fe__maxf(forth, back) > c->g->margin) return 0;
-    const float level = 1e-3f; // sine: along the face both ways are out of the surface
-    for (int32_t i = 0; i < 2; ++i) {
-        float separation = i ? back : forth, up = i ? -upward : upward;
-        fe_vec3 way = i ? fe__neg(m) : m;
-        if (up < -level || separation <= c->best.separation + c->tie || !fe__tile_allows(c->g->terrain, c->tile, way))
-            continue;
-        c->best = (axis){kind, box_axis, side, way, separation};
+    uint32_t apart = 0;
+    for (int32_t i = 0; i < AXES; i += FE_W) {
+        wide3 m = {*(const wide *)(a->x + i), *(const wide *)(a->y + i), *(const wide *)(a->z + i)};
+        wide p = w_dot(m, spread(v[0])), q = w_dot(m, spread(v[1])), r = w_dot(m, spread(v[2])),
+             reach = w_set(c->half[0]) * w_abs(w_dot(m, spread(c->axes[0]))) +
+                     w_set(c->half[1]) * w_abs(w_dot(m, spread(c->axes[1]))) +
+                     w_set(c->half[2]) * w_abs(w_dot(m, spread(c->axes[2]))),
+             forth = -reach - w_max(p, w_max(q, r)), back = w_min(p, w_min(q, r)) - reach;
+        *(wide *)(a->forth + i) = forth, *(wide *)(a->back + i) = back;
+        *(wide *)(a->upward + i) = w_dot(m, spread(c->tile->normal));
+        apart |= w_bits(w_greater(w_max(forth, back), w_set(c->g->margin))) << i;
     }
-    return 1;
+    return !(apart & a->valid);
+}
+
+// Both ways along an axis
+static void try_axis(contest *c, const axes *a, int32_t i)
+{
+    const float level = 1e-3f; // sine: along the face both ways are out of the surface
+    for (int32_t back = 0; back < 2; ++back) {
+        float separation = back ? a->back[i] : a->forth[i], up = back ? -a->upward[i] : a->upward[i];
+        if (up < -level || separation <= c->best.separation + c->tie) continue;
+        fe_vec3 m = {a->x[i], a->y[i], a->z[i]}, way = back ? fe__neg(m) : m;
+        if (!fe__tile_allows(c->g->terrain, c->tile, way)) continue;
+        int32_t kind = i < BOX_AXES ? ON_BOX_FACE : ON_EDGES, side = i < BOX_AXES ? 0 : i / BOX_AXES - 1;
+        c->best = (axis){kind, i % BOX_AXES, side, way, separation};
+    }
 }
 
 // 0: apart
 static int32_t find_axis(contest *c)
 {
-    const float parallel = 1e-3f; // sin^2 of edges whose cross product says nothing
-    const fe_vec3 *v = c->tile->form.vertex;
-    for (int32_t j = 0; j < 3; ++j)
-        if (!try_axis(c, c->axes[j], ON_BOX_FACE, j, 0)) return 0;
-    for (int32_t k = 0; k < 3; ++k) {
-        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
-        float square = fe__dot(side, side);
-        for (int32_t j = 0; j < 3; ++j) {
-            fe_vec3 m = fe__cross(side, c->axes[j]);
-            float sine = fe__dot(m, m);
-            if (sine > parallel * square && !try_axis(c, fe__scale(1.0f / sqrtf(sine), m), ON_EDGES, j, k)) return 0;
-        }
-    }
+    axes a;
+    set_directions(c, &a);
+    if (!set_separations(c, &a)) return 0;
+    for (int32_t i = 0; i < AXES; ++i)
+        if (a.valid >> i & 1) try_axis(c, &a, i);
     return 1;
 }
 
