@@ -9,7 +9,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     if (size == 0) return 0;
-    const fuzz_setting setting = {3, FE_SIMD_AUTO, bytes[0] % 2, 0};
+    const fuzz_setting setting = {.workers = 3, .simd = FE_SIMD_AUTO, .is_wild = bytes[0] % 2};
     fuzz_run(bytes + 1, size - 1, &setting);
     return 0;
 }

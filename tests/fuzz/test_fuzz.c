@@ -24,7 +24,8 @@ static void no_stream_of_calls_breaks_a_world(void **state)
 {
     (void)state;
     static uint8_t bytes[STREAM_BYTES];
-    const fuzz_setting alone = {1, FE_SIMD_PLAIN, 0, 0}, together = {4, FE_SIMD_AUTO, 0, 0};
+    const fuzz_setting alone = {.workers = 1, .simd = FE_SIMD_PLAIN};
+    const fuzz_setting together = {.workers = 4, .simd = FE_SIMD_AUTO};
     for (uint32_t seed = 0; seed < STREAMS; ++seed) {
         fill(bytes, seed);
         if (fuzz_run(bytes, STREAM_BYTES, &alone) != fuzz_run(bytes, STREAM_BYTES, &together))
@@ -40,7 +41,8 @@ static void failed_steps_leave_no_trace(void **state)
     for (uint32_t seed = 0; seed < STREAMS; ++seed) {
         fill(bytes, 2 * STREAMS + seed);
         const int32_t is_wild = (int32_t)(seed % 2);
-        const fuzz_setting calm = {1, FE_SIMD_AUTO, is_wild, 1}, unlucky = {1, FE_SIMD_AUTO, is_wild, 2 + seed};
+        const fuzz_setting calm = {.workers = 1, .simd = FE_SIMD_AUTO, .is_wild = is_wild, .failures = 1};
+        const fuzz_setting unlucky = {.workers = 1, .simd = FE_SIMD_AUTO, .is_wild = is_wild, .failures = 2 + seed};
         if (fuzz_run(bytes, STREAM_BYTES, &calm) != fuzz_run(bytes, STREAM_BYTES, &unlucky))
             fail_msg("stream %u ends otherwise when steps are repeated", seed);
     }
@@ -51,7 +53,7 @@ static void no_stream_of_wild_values_crashes(void **state)
 {
     (void)state;
     static uint8_t bytes[STREAM_BYTES];
-    const fuzz_setting wild = {4, FE_SIMD_AUTO, 1, 0};
+    const fuzz_setting wild = {.workers = 4, .simd = FE_SIMD_AUTO, .is_wild = 1};
     for (uint32_t seed = 0; seed < STREAMS; ++seed) {
         fill(bytes, STREAMS + seed);
         fuzz_run(bytes, STREAM_BYTES, &wild);
