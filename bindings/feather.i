@@ -36,7 +36,7 @@
 %ignore fe_store_def::allocator;
 
 // Recordings: for hosts in C.
-%rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_[a-z_]+)?$") "";
+%rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_note;
 
 #if defined(SWIGPYTHON)
