@@ -126,7 +126,7 @@ static void shapes_joints_and_settings_are_named(void **state)
     bytes a = save(world);
     fe_world *twin = load(a, 0);
     fe_body bodies[8];
-    fe_shape shape;
+    fe_shape shape = 0;
     FE_TRUE(fe_world_get_bodies(world, bodies, 8) >= 8);
     fe_body with_joint = 0;
     fe_joint joint = 0;
