@@ -68,6 +68,7 @@ const records = {}, opaque = new Set();
 for (const [, name] of header.matchAll(/^typedef struct (fe_\w+) \1;/gm)) opaque.add(name);
 const layout = (type) => {
     if (handles.has(type)) return [8, 8];
+    if (type === 'char') return [1, 1];
     if (numbers[type]) return [numbers[type][0], numbers[type][0]];
     if (records[type]) return [records[type].size, records[type].align];
     return [4, 4]; // enumerations, pointers
