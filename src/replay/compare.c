@@ -167,20 +167,27 @@ static int32_t next_section(const unsigned char *bytes, int64_t size, int64_t *a
     return 1;
 }
 
+// Where in a row of the table the field of the record at that offset stands
+static int64_t place_in_row(const fe__table *table, size_t offset)
+{
+    int64_t at = 0;
+    for (const fe__field *field = table->fields; field->offset != offset; ++field) at += fe__field_size(field);
+    return at;
+}
+
 // But for the lists of who has an asset: two of one content are one in a world that began at a keyframe. Both have the
 // size of what this library writes
 static int32_t shapes_are_same(const section *a, const section *b)
 {
     const fe__table *table = fe__tables + FE__TABLE_SHAPES;
-    const unsigned char *rows = a->bytes + FE__SECTION_HEADER;
-    int64_t at = FE__SECTION_HEADER, count = (int64_t)fe__take_u64(&rows);
-    if (memcmp(a->bytes + at, b->bytes + at, FE__SECTION_ROWS) != 0) return 0;
-    at += FE__SECTION_ROWS;
-    for (int32_t i = 0; i < table->field_count; ++i) {
-        int64_t size = count * fe__field_size(table->fields + i);
-        int32_t is_list = table->fields[i].offset == offsetof(fe__shape, next_user);
-        if (!is_list && memcmp(a->bytes + at, b->bytes + at, (size_t)size) != 0) return 0;
-        at += size;
+    const unsigned char *x = a->bytes + FE__SECTION_HEADER, *y = b->bytes + FE__SECTION_HEADER, *rows = x;
+    int64_t count = (int64_t)fe__take_u64(&rows), list = place_in_row(table, offsetof(fe__shape, next_user));
+    int64_t after = list + (int64_t)sizeof((fe__shape *)0)->next_user;
+    if (memcmp(x, y, FE__SECTION_ROWS) != 0) return 0;
+    x += FE__SECTION_ROWS, y += FE__SECTION_ROWS;
+    for (int64_t i = 0; i < count; ++i, x += table->row_size, y += table->row_size) {
+        if (memcmp(x, y, (size_t)list) != 0) return 0;
+        if (memcmp(x + after, y + after, (size_t)(table->row_size - after)) != 0) return 0;
     }
     return 1;
 }
