@@ -1884,6 +1884,7 @@ FE_API int32_t fe_snapshot_compare(const void *a, int64_t a_size, const void *b,
 // A history is of one world, which may have several, and ends with fe_history_destroy or with the world. Calls of one
 // that is gone are FE_ERROR_STALE.
 
+/// How much a history keeps.
 typedef struct fe_history_def {
     uint32_t struct_size;
     int32_t frames; ///< how many are kept, 1 to 65536. Default 16
