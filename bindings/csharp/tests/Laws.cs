@@ -1226,6 +1226,7 @@ namespace FeatherPhysics.Tests
                 "NativeHeightfield" },
             { "fe_hull_def", "NativeHull" }, { "fe_mesh_def", "NativeMesh" },
             { "fe_save_options", "NativeSaveOptions" }, { "fe_restore_options", "NativeRestoreOptions" },
+            { "fe_difference", "NativeDifference" },
         };
 
         static string Pascal(string name)
