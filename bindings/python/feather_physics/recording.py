@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from threading import Lock
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, BinaryIO, Iterator, List, NamedTuple, Optional, Type, Union
 
@@ -120,13 +121,14 @@ class Recorder:
 class Recording(Recorder):
     """A recording that goes to a file, while the world steps: `with world.record(path) as recording:`."""
 
-    __slots__ = ("_file", "_failure", "_interval", "_steps")
+    __slots__ = ("_file", "_failure", "_interval", "_lock", "_steps")
 
     def __init__(self, capsule: Any, world: Any, file: BinaryIO, interval: int):
         super().__init__(capsule, world)
         self._file = file
         self._failure: Optional[Exception] = None
         self._interval = interval
+        self._lock = Lock()  # who reads first writes first
         self._steps = 0
 
     def _after_step(self) -> None:
@@ -137,12 +139,18 @@ class Recording(Recorder):
         self._drain()
 
     def _drain(self) -> None:
-        """A step does not fail because somebody records: flush() and close() tell what went wrong."""
-        if self._failure is None:
+        """A step does not fail because somebody records: flush() and close() tell what went wrong. Nothing is written
+        behind a gap."""
+        with self._lock:
+            if self._failure is not None:
+                return
             try:
                 self._file.write(_flat.recorder_read(self._capsule))
             except Exception as error:
                 self._failure = error
+            except BaseException:
+                self._failure = OSError("the recording was interrupted: the file ends there")
+                raise
 
     def read(self) -> bytes:
         """Nothing: what is recorded goes to the file."""

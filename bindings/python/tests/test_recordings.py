@@ -18,6 +18,7 @@ from feather_physics import (
     Player,
     Pool,
     Recorder,
+    Recording,
     StaleHandleError,
     StateError,
     SteppingError,
@@ -453,3 +454,53 @@ def test_a_recorder_is_read_by_another_thread() -> None:
     thread.join()
     pieces.append(recorder.read())
     assert [replay.hash for replay in Player(b"".join(pieces))] == hashes
+
+
+def test_who_reads_first_writes_first(tmp_path: Path) -> None:
+    world = pile()
+    inside, go = threading.Event(), threading.Event()
+
+    class Slow:
+        """The first who writes waits in it."""
+
+        def __init__(self, file: Any):
+            self.flush, self.close, self.file = file.flush, file.close, file
+
+        def write(self, data: bytes) -> None:
+            if not inside.is_set():
+                inside.set()
+                go.wait()
+            self.file.write(data)
+
+    with world.record(tmp_path / "run") as recording:
+        hashes = run(world, 5)
+        recording._file = Slow(recording._file)  # type: ignore[assignment]
+        first, second = (threading.Thread(target=recording.flush) for _ in range(2))
+        first.start()
+        inside.wait()
+        hashes += run(world, 5)
+        second.start()
+        second.join(0.2)  # it would be done, if it did not wait for the first
+        go.set()
+        first.join()
+        second.join()
+    assert [replay.hash for replay in Player(tmp_path / "run")] == hashes
+
+
+def test_an_interrupt_leaves_no_gap(tmp_path: Path) -> None:
+    world = pile()
+
+    class Interrupted:
+        def write(self, data: bytes) -> None:
+            raise KeyboardInterrupt
+
+    recording: Any = world.record(tmp_path / "run", fine=True)
+    hashes = run(world, 10)
+    file, recording._file = recording._file, Interrupted()
+    with pytest.raises(KeyboardInterrupt):
+        world.step(DT)
+    recording._file = file
+    run(world, 10)
+    with pytest.raises(OSError, match="interrupted"):
+        recording.close()
+    assert [replay.hash for replay in Player(tmp_path / "run")] == hashes
