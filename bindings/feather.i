@@ -35,9 +35,11 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
-// Recordings: for hosts in C.
+#if !defined(SWIGPYTHON)
+// Recordings: for hosts in C, and in Python.
 %rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_note;
+#endif
 
 #if defined(SWIGPYTHON)
 %include "python/python.i"

@@ -29,6 +29,8 @@ FE_RECORD(fe_draw_options)
 FE_RECORD(fe_save_options)
 FE_RECORD(fe_restore_options)
 FE_RECORD(fe_history_def)
+FE_RECORD(fe_recorder_def)
+FE_RECORD(fe_player_def)
 // A definition's own init writes as much as the object holds.
 %typemap(in, numinputs=0) uint32_t struct_size "$1 = 0;"
 %typemap(check) uint32_t struct_size "$1 = arg1 ? (uint32_t)sizeof *arg1 : 0;"
@@ -62,6 +64,7 @@ FE_OUT_RECORD(fe_fixed_joint_def, out_def)
 FE_OUT_RECORD(fe_configurable_joint_def, out_def)
 FE_OUT_RECORD(fe_joint_state, out_state)
 FE_OUT_RECORD(fe_snapshot_info, out_info)
+FE_OUT_RECORD(fe_player_info, out_info)
 %enddef
 
 // Likewise SWIGTYPE *OUT_HIT: a record that a query fills when it returns 1, and that is nothing when it returns 0. The

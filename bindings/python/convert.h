@@ -51,6 +51,8 @@ static const char world_name[] = "feather_physics.world";
 static const char pool_name[] = "feather_physics.pool";
 static const char history_name[] = "feather_physics.history";
 static const char store_name[] = "feather_physics.store";
+static const char recorder_name[] = "feather_physics.recorder";
+static const char player_name[] = "feather_physics.player";
 
 typedef struct world_box {
     fe_world *world;       ///< NULL: closed
@@ -60,6 +62,8 @@ typedef struct world_box {
     int readers;           ///< threads that read it without the GIL
     int steppers;          ///< 1 while a thread steps it without the GIL, more when its filter steps again
     unsigned long stepper; ///< that thread
+    PyObject *player;      ///< the capsule of the player that the world belongs to; NULL: it belongs to the box
+    fe_recorder *orphan;   ///< nobody has it any more, and the world was in use when it was to end. Or NULL
 } world_box;
 
 typedef struct pool_box {
@@ -76,9 +80,28 @@ typedef struct history_box {
     PyObject *world;     ///< the capsule of its world, with which it ends
 } history_box;
 
+typedef struct recorder_box {
+    fe_recorder *recorder; ///< NULL: closed
+    PyObject *world;       ///< the capsule of its world
+    int readers;           ///< threads that read it without the GIL
+} recorder_box;
+
+typedef struct player_box {
+    fe_player *player; ///< NULL: closed
+    PyObject *kept;    ///< what must outlive it: its pool, its store. Or NULL
+    PyObject *view;    ///< the capsule of its world while somebody has it, which holds this one; or NULL
+    int busy;          ///< 1 while a thread uses it without the GIL
+} player_box;
+
+static void drop_orphan(world_box *box)
+{
+    if (box->orphan && fe_recorder_destroy(box->orphan) == FE_OK) box->orphan = NULL;
+}
+
 static void close_world(world_box *box)
 {
     box->world = NULL;
+    drop_orphan(box);
     Py_CLEAR(box->filter);
     Py_CLEAR(box->kept);
 }
@@ -87,8 +110,11 @@ static void release_world(PyObject *capsule)
 {
     world_box *box = PyCapsule_GetPointer(capsule, world_name);
     if (!box) return;
-    if (box->world) (void)fe_world_destroy(box->world);
+    player_box *player = box->player ? PyCapsule_GetPointer(box->player, player_name) : NULL;
+    if (player && player->view == capsule) player->view = NULL;
+    if (box->world && !box->player) (void)fe_world_destroy(box->world);
     close_world(box);
+    Py_XDECREF(box->player);
     free(box);
 }
 
@@ -121,6 +147,25 @@ static void release_history(PyObject *capsule)
     if (!box) return;
     if (history_lives(box)) (void)fe_history_destroy(box->history);
     Py_DECREF(box->world);
+    free(box);
+}
+
+static void release_recorder(PyObject *capsule)
+{
+    recorder_box *box = PyCapsule_GetPointer(capsule, recorder_name);
+    if (!box) return;
+    world_box *world = PyCapsule_GetPointer(box->world, world_name);
+    if (box->recorder && fe_recorder_destroy(box->recorder) != FE_OK && world) world->orphan = box->recorder;
+    Py_DECREF(box->world);
+    free(box);
+}
+
+static void release_player(PyObject *capsule)
+{
+    player_box *box = PyCapsule_GetPointer(capsule, player_name);
+    if (!box) return;
+    if (box->player) (void)fe_player_destroy(box->player);
+    Py_XDECREF(box->kept);
     free(box);
 }
 
@@ -174,6 +219,33 @@ static PyObject *new_history(fe_history *history, PyObject *world)
         box->world = Py_NewRef(world);
     } else {
         (void)fe_history_destroy(history);
+        free(box);
+    }
+    return capsule;
+}
+
+static PyObject *new_recorder(fe_recorder *recorder, PyObject *world)
+{
+    recorder_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, recorder_name, release_recorder) : PyErr_NoMemory();
+    if (capsule) {
+        box->recorder = recorder;
+        box->world = Py_NewRef(world);
+    } else {
+        (void)fe_recorder_destroy(recorder);
+        free(box);
+    }
+    return capsule;
+}
+
+static PyObject *new_player(fe_player *player)
+{
+    player_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, player_name, release_player) : PyErr_NoMemory();
+    if (capsule) {
+        box->player = player;
+    } else {
+        (void)fe_player_destroy(player);
         free(box);
     }
     return capsule;
@@ -233,13 +305,53 @@ static history_box *history_of(PyObject *object)
     return box && !may_not_use(box) ? box : NULL;
 }
 
-/// Makes a world hold a reference to what must not go before it.
-static PyObject *world_keep(PyObject *world, PyObject *object)
+static int recorder_is_closed(const recorder_box *box)
 {
-    world_box *box = world_of(world);
-    if (!box) return NULL;
+    return box->recorder ? 0 : fails(FE_ERROR_STALE, "the recorder is closed");
+}
+
+static recorder_box *recorder_of(PyObject *object)
+{
+    recorder_box *box = box_of(object, recorder_name, "recorder");
+    return box && !recorder_is_closed(box) ? box : NULL;
+}
+
+/// -1 where a player may not be used now: it is closed, or another thread uses it or, where it would change, its world.
+static int may_use_player(const player_box *box, int writes, const char *function)
+{
+    if (!box->player) return fails(FE_ERROR_STALE, "the player is closed");
+    const world_box *view = box->view ? PyCapsule_GetPointer(box->view, world_name) : NULL;
+    if (!box->busy && !(writes && view && view->readers)) return 0;
+    PyErr_Format(error_class(FE_ERROR_BUSY), "%s: another thread %s", function,
+                 box->busy ? "uses the player" : "reads its world");
+    return -1;
+}
+
+static player_box *player_of(PyObject *object)
+{
+    player_box *box = box_of(object, player_name, "player");
+    if (box && !box->player) {
+        (void)fails(FE_ERROR_STALE, "the player is closed");
+        return NULL;
+    }
+    return box;
+}
+
+/// Makes a world or a player hold a reference to what must not go before it.
+static PyObject *keep(PyObject *owner, PyObject *object)
+{
+    PyObject **kept;
+    if (PyCapsule_IsValid(owner, player_name)) {
+        player_box *box = player_of(owner);
+        if (!box) return NULL;
+        kept = &box->kept;
+    } else {
+        world_box *box = world_of(owner);
+        if (!box) return NULL;
+        kept = &box->kept;
+    }
     Py_INCREF(object);
-    Py_XSETREF(box->kept, object);
+    Py_XSETREF(*kept, object);
     Py_RETURN_NONE;
 }
 
@@ -250,6 +362,11 @@ static PyObject *world_keep(PyObject *world, PyObject *object)
 static int may_use(const world_box *box, int writes, const char *function)
 {
     if (!box->world) return fails(FE_ERROR_STALE, "the world is closed");
+    if (writes && box->player) {
+        PyErr_Format(error_class(FE_ERROR_STATE), "%s: the world is a player's, to be read: release() hands it over",
+                     function);
+        return -1;
+    }
     int steps = box->steppers && box->stepper != PyThread_get_thread_ident();
     if (!steps && !(writes && box->readers)) return 0;
     PyErr_Format(error_class(FE_ERROR_BUSY), "%s: another thread %s the world", function, steps ? "steps" : "reads");
@@ -260,7 +377,7 @@ static void enter_read(world_box *box) { ++box->readers; }
 
 static int leave_read(world_box *box)
 {
-    --box->readers;
+    if (--box->readers == 0) drop_orphan(box);
     return 0;
 }
 
@@ -272,10 +389,35 @@ static void enter_step(world_box *box)
 /// Raises what the filter raised during the step.
 static int leave_step(world_box *box)
 {
-    if (--box->steppers > 0 || !box->failure[0]) return 0;
+    if (--box->steppers > 0) return 0;
+    drop_orphan(box);
+    if (!box->failure[0]) return 0;
     PyErr_Restore(box->failure[0], box->failure[1], box->failure[2]);
     box->failure[0] = box->failure[1] = box->failure[2] = NULL;
     return -1;
+}
+
+/// -1 where a recorder may not end now.
+static int may_end(const recorder_box *box)
+{
+    if (box->readers) return fails(FE_ERROR_BUSY, "recorder_destroy: another thread reads the recorder");
+    const world_box *world = PyCapsule_GetPointer(box->world, world_name);
+    return world && world->world ? may_use(world, 1, "recorder_destroy") : 0;
+}
+
+/// @return its world's capsule, held until leave_player; or NULL
+static PyObject *enter_player(player_box *box)
+{
+    box->busy = 1;
+    if (box->view) enter_step(PyCapsule_GetPointer(box->view, world_name));
+    return Py_XNewRef(box->view);
+}
+
+static void leave_player(player_box *box, PyObject *view)
+{
+    box->busy = 0;
+    if (view) (void)leave_step(PyCapsule_GetPointer(view, world_name));
+    Py_XDECREF(view);
 }
 
 static PyObject *pair_record(const fe_filter_pair *pair);
@@ -305,6 +447,109 @@ static int32_t judge_pair(void *user, const fe_filter_pair *pair)
 static void keep_filter(world_box *box, PyObject *filter)
 {
     Py_XSETREF(box->filter, filter == Py_None ? NULL : Py_NewRef(filter));
+}
+
+// ---- recordings -----------------------------------------------------------------------------------------------------
+
+/// All that waits, as bytes; none when nothing waits, or when the recording ended with its world and all was read.
+static PyObject *read_recorder(PyObject *capsule)
+{
+    recorder_box *box = recorder_of(capsule);
+    if (!box) return NULL;
+    for (;;) {
+        int64_t size = 0;
+        int result = fe_recorder_read(box->recorder, NULL, 0, &size);
+        if (result < 0) return raise_result(result), NULL;
+        PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)size);
+        if (!bytes || size == 0) return bytes;
+        ++box->readers;
+        Py_BEGIN_ALLOW_THREADS result = fe_recorder_read(box->recorder, PyBytes_AS_STRING(bytes), size, &size);
+        Py_END_ALLOW_THREADS-- box->readers;
+        if (result >= 0) return _PyBytes_Resize(&bytes, (Py_ssize_t)size) ? NULL : bytes;
+        Py_DECREF(bytes);
+        if (result != FE_ERROR_LIMIT || size == 0) return raise_result(result), NULL;
+        // a flight recorder grew meanwhile
+    }
+}
+
+/// The capsule of a player's world: the same one as long as somebody has it.
+static PyObject *world_of_player(PyObject *capsule)
+{
+    player_box *box = player_of(capsule);
+    const fe_world *world = NULL;
+    if (!box || may_use_player(box, 0, "player_get_world")) return NULL;
+    int result = fe_player_get_world(box->player, &world);
+    if (result < 0) return raise_result(result), NULL;
+    if (box->view) return Py_NewRef(box->view);
+    world_box *made = calloc(1, sizeof *made);
+    PyObject *view = made ? PyCapsule_New(made, world_name, release_world) : PyErr_NoMemory();
+    if (!view) return free(made), NULL;
+    made->world = (fe_world *)world; // may_use refuses all that writes
+    made->player = Py_NewRef(capsule);
+    box->view = view;
+    return view;
+}
+
+/// The same capsule, which owns the world from here on.
+static PyObject *release_world_of_player(PyObject *capsule)
+{
+    PyObject *view = world_of_player(capsule);
+    if (!view) return NULL;
+    player_box *box = player_of(capsule);
+    world_box *world = PyCapsule_GetPointer(view, world_name);
+    fe_world *released = NULL;
+    int result = may_use_player(box, 1, "player_release") ? 1 : fe_player_release(box->player, &released);
+    if (result != FE_OK) {
+        if (result < 0) raise_result(result);
+        Py_DECREF(view);
+        return NULL;
+    }
+    box->view = NULL;
+    Py_XSETREF(world->kept, Py_XNewRef(box->kept));
+    Py_CLEAR(world->player);
+    return view;
+}
+
+static PyObject *notes_of_player(PyObject *capsule)
+{
+    player_box *box = player_of(capsule);
+    if (!box || may_use_player(box, 0, "player_get_notes")) return NULL;
+    int32_t count = fe_player_get_notes(box->player, NULL, sizeof(fe_note), 0);
+    if (count < 0) return raise_result(count), NULL;
+    fe_note *notes = calloc((size_t)count + 1, sizeof *notes);
+    PyObject *list = notes ? PyList_New(count) : PyErr_NoMemory();
+    if (list) (void)fe_player_get_notes(box->player, notes, sizeof *notes, count);
+    for (int32_t i = 0; list && i < count; ++i) {
+        PyObject *text = PyUnicode_DecodeUTF8(notes[i].text, (Py_ssize_t)strlen(notes[i].text), "replace");
+        PyObject *note =
+            text ? Py_BuildValue("(LKN)", (long long)notes[i].step, (unsigned long long)notes[i].about, text) : NULL;
+        if (note)
+            PyList_SET_ITEM(list, i, note);
+        else
+            Py_CLEAR(list);
+    }
+    free(notes);
+    return list;
+}
+
+static PyObject *from_divergence(const fe_divergence *d)
+{
+    return Py_BuildValue("(iLKiss)", (int)d->type, (long long)d->step, (unsigned long long)d->body, (int)d->component,
+                         d->field, d->text);
+}
+
+/// UTF-8 that ends with 0.
+static const char *to_text(PyObject *object, const char *what)
+{
+    Py_ssize_t size;
+    if (!PyUnicode_Check(object)) {
+        PyErr_Format(PyExc_TypeError, "%s: a str is needed, not '%s'", what, Py_TYPE(object)->tp_name);
+        return NULL;
+    }
+    const char *text = PyUnicode_AsUTF8AndSize(object, &size);
+    if (!text || strlen(text) == (size_t)size) return text;
+    PyErr_Format(PyExc_ValueError, "%s: a null character is in it", what);
+    return NULL;
 }
 
 // ---- small values ---------------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
-%native(world_keep) PyObject *flat_world_keep(PyObject *self, PyObject *arguments);
+%native(keep) PyObject *flat_keep(PyObject *self, PyObject *arguments);
 %{
 static PyObject *flat_set_error_classes(PyObject *self, PyObject *arguments)
 {
@@ -25,11 +25,11 @@ static PyObject *flat_set_error_classes(PyObject *self, PyObject *arguments)
     (void)self;
     return PyArg_ParseTuple(arguments, "O", &classes) ? set_error_classes(classes) : NULL;
 }
-static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
+static PyObject *flat_keep(PyObject *self, PyObject *arguments)
 {
-    PyObject *world, *object;
+    PyObject *owner, *object;
     (void)self;
-    return PyArg_ParseTuple(arguments, "OO", &world, &object) ? world_keep(world, object) : NULL;
+    return PyArg_ParseTuple(arguments, "OO", &owner, &object) ? keep(owner, object) : NULL;
 }
 %}
 
@@ -102,6 +102,82 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
     if (strcmp("$symname", "history_destroy") == 0) given$argnum->history = NULL;
 %}
 
+%typemap(in, numinputs=0) fe_recorder **out_recorder (fe_recorder *made = 0) "$1 = &made;"
+%typemap(argout) fe_recorder **out_recorder %{ $result = new_recorder(*$1, swig_obj[0]); %}
+%typemap(in) fe_recorder *recorder (recorder_box *given = 0) {
+    given = recorder_of($input);
+    if (!given) SWIG_fail;
+    $1 = given->recorder;
+}
+// when all arguments are converted, as above
+%typemap(check) fe_recorder *recorder %{
+    if (recorder_is_closed(given$argnum)) SWIG_fail;
+    if (strcmp("$symname", "recorder_destroy") == 0 && may_end(given$argnum)) SWIG_fail;
+%}
+%typemap(argout) fe_recorder *recorder %{
+    if (strcmp("$symname", "recorder_destroy") == 0 && result == FE_OK) given$argnum->recorder = NULL;
+%}
+%typemap(in) const char *text {
+    $1 = (char *)to_text($input, "$1_name");
+    if (!$1) SWIG_fail;
+}
+%typemap(freearg) const char *text ""
+
+%typemap(in, numinputs=0) fe_player **out_player (fe_player *made = 0) "$1 = &made;"
+%typemap(argout) fe_player **out_player %{ $result = new_player(*$1); %}
+%typemap(in) fe_player *player (player_box *given = 0, PyObject *view = 0) {
+    given = player_of($input);
+    if (!given) SWIG_fail;
+    $1 = given->player;
+}
+%typemap(in) const fe_player *player = fe_player *player;
+// when all arguments are converted, as above
+%typemap(check) fe_player *player "if (may_use_player(given$argnum, 1, \"$symname\")) SWIG_fail;"
+%typemap(check) const fe_player *player "if (may_use_player(given$argnum, 0, \"$symname\")) SWIG_fail;"
+%typemap(argout) fe_player *player %{
+    if (strcmp("$symname", "player_destroy") == 0 && result == FE_OK) {
+        given$argnum->player = NULL;
+        if (given$argnum->view) close_world(PyCapsule_GetPointer(given$argnum->view, world_name));
+        Py_CLEAR(given$argnum->kept);
+    }
+%}
+%typemap(argout) const fe_player *player ""
+// True: the player is there. False: there is no more yet
+%typemap(out) fe_result fe_player_step, fe_result fe_player_seek {
+    if ($1 < 0) {
+        raise_result($1);
+        SWIG_fail;
+    }
+    $result = PyBool_FromLong($1 == FE_OK);
+}
+// texts of a divergence and of notes live as long as the player: they are copied at once
+%typemap(in, numinputs=0) fe_divergence *out_divergence (fe_divergence made) %{
+    memset(&made, 0, sizeof made);
+    made.struct_size = (uint32_t)sizeof made;
+    $1 = &made;
+%}
+%typemap(argout) fe_divergence *out_divergence %{ $result = from_divergence($1); %}
+%ignore fe_divergence;
+%ignore fe_divergence_init;
+%ignore fe_note;
+%ignore fe_player_def::allocator;
+%define FE_OF_ONE(FUNCTION, MAKE)
+%ignore fe_##FUNCTION;
+%native(FUNCTION) PyObject *flat_##FUNCTION(PyObject *self, PyObject *arguments);
+%{
+static PyObject *flat_##FUNCTION(PyObject *self, PyObject *arguments)
+{
+    PyObject *capsule;
+    (void)self;
+    return PyArg_UnpackTuple(arguments, "FUNCTION", 1, 1, &capsule) ? MAKE(capsule) : NULL;
+}
+%}
+%enddef
+FE_OF_ONE(recorder_read, read_recorder)
+FE_OF_ONE(player_get_world, world_of_player)
+FE_OF_ONE(player_release, release_world_of_player)
+FE_OF_ONE(player_get_notes, notes_of_player)
+
 // The GIL is given back in the step, and where a call may take long and only reads. What the other threads must not do
 // meanwhile is checked while the GIL is held: the library's own check comes too late for a thread that closes the world
 // just before the step begins.
@@ -125,6 +201,19 @@ FE_WITHOUT_GIL(fe_world_draw_lines, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_triangles, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_points, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_instances, enter_read, leave_read)
+
+%define FE_PLAYER_WITHOUT_GIL(NAME)
+%exception NAME {
+    view1 = enter_player(given1);
+    Py_BEGIN_ALLOW_THREADS
+    $action
+    Py_END_ALLOW_THREADS
+    leave_player(given1, view1);
+}
+%enddef
+FE_PLAYER_WITHOUT_GIL(fe_player_feed)
+FE_PLAYER_WITHOUT_GIL(fe_player_step)
+FE_PLAYER_WITHOUT_GIL(fe_player_seek)
 
 // A callable that takes a filter_pair and returns whether the two may collide, or None. The world keeps it.
 %typemap(in) (fe_pair_filter filter, void *user) {

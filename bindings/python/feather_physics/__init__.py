@@ -33,6 +33,7 @@ from .errors import (
 )
 from .history import History
 from .objects import Body, Joint, Shape
+from .recording import Divergence, Note, Player, PlayerInfo, Recorder, Recording
 from .records import (
     BodyEvent,
     Box,
@@ -97,6 +98,7 @@ __all__ = [
     "DataError",
     "DegenerateError",
     "Difference",
+    "Divergence",
     "DivergedError",
     "Energy",
     "FeatherError",
@@ -123,15 +125,20 @@ __all__ = [
     "MeshInfo",
     "MeshTriangle",
     "Momentum",
+    "Note",
     "OutOfMemoryError",
     "Overlap",
     "Packed",
     "PairEvent",
     "Part",
     "Plane",
+    "Player",
+    "PlayerInfo",
     "Pool",
     "Profile",
     "Quat",
+    "Recorder",
+    "Recording",
     "Scaled",
     "Shape",
     "SnapshotInfo",

@@ -302,7 +302,7 @@ class Difference(NamedTuple):
 
     kind: str
     field: str
-    index: int
+    index: int  # type: ignore[assignment]
     element: int
     handle: int
     other: int

@@ -26,6 +26,7 @@ DRAW_PARTS = (
     "trees",
 )
 HIDDEN = ("this", "thisown", "struct_size", "of")
+SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm")
 
 
 def word(words: Sequence[str], text: Any, what: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import weakref
 from array import array
 from types import TracebackType
@@ -11,12 +12,12 @@ from . import _flat, records
 from ._flat import Bounds, Vec3
 from .history import History
 from .objects import Body, Joint, Shape, handle_of
+from .recording import DRAIN_STEPS, Path, Recorder, Recording, begin
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
 from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
-from .words import body_type, draw_bits, fill, locks_bits, word
+from .words import SIMD_SETS, body_type, draw_bits, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
-SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm")
 EVENTS = ("pair", "body", "hit", "joint")
 DRAWN = ("lines", "triangles", "points", "instances")
 ZERO = (0.0, 0.0, 0.0)
@@ -74,7 +75,7 @@ class World:
     """Everything that can touch each other. `with World() as world:` closes it at the end; so does losing it and all
     that is in it."""
 
-    __slots__ = ("_capsule", "_closed", "_store", "_user_data", "_pair_filter", "__weakref__")
+    __slots__ = ("_capsule", "_closed", "_store", "_user_data", "_pair_filter", "_recording", "__weakref__")
 
     def __init__(
         self,
@@ -106,11 +107,18 @@ class World:
 
     def _begin(self, capsule: Any, pool: Optional[Pool], store: Optional[Store]) -> None:
         self._capsule = capsule
-        _flat.world_keep(self._capsule, (pool and pool._capsule, store and store._capsule))
+        _flat.keep(self._capsule, (pool and pool._capsule, store and store._capsule))
         self._closed = False
         self._store = Store._of(self._capsule) if store is None else store
         self._user_data: Dict[int, Any] = {}
         self._pair_filter: Optional[Callable[[FilterPair], Any]] = None
+        self._recording: Optional[Recording] = None
+
+    @classmethod
+    def _of_player(cls, capsule: Any, store: Optional[Store]) -> "World":
+        world = cls.__new__(cls)
+        world._begin(capsule, None, store)
+        return world
 
     def close(self) -> None:
         """Destroys the world and all in it: whatever was in it is stale afterwards. Closing again does nothing."""
@@ -119,6 +127,8 @@ class World:
             self._closed = True
             self._user_data.clear()
             self._pair_filter = None
+            if self._recording is not None:
+                self._recording.close()
 
     def save(self, *, assets: bool = False) -> bytes:
         """The whole world as bytes: the same on every machine, whatever the workers. What World.load() makes of them
@@ -148,6 +158,42 @@ class World:
         definition.frames = frames
         definition.bytes = bytes
         return History(_flat.history_create(self._capsule, definition), self._forget_ended)
+
+    def recorder(
+        self,
+        *,
+        assets: bool = True,
+        fine: bool = False,
+        last: bool = False,
+        keyframe_steps: int = 600,
+        buffer_bytes: int = 64 << 20,
+    ) -> Recorder:
+        """Begins a recording of each call that changes the world from here on, to be read as bytes. Assets: their
+        contents are inside. Fine: who diverges is named at once. Last: a flight recorder, which keeps what fits into
+        its buffer. A snapshot stands at first and after so many steps that moved something, 0: at first only. A
+        StateError when the world is recorded already."""
+        return Recorder(begin(self._capsule, assets, fine, last, keyframe_steps, buffer_bytes), self._capsule)
+
+    def record(
+        self,
+        path: Path,
+        *,
+        assets: bool = True,
+        fine: bool = False,
+        keyframe_steps: int = 600,
+        buffer_bytes: int = 64 << 20,
+    ) -> Recording:
+        """A recording that goes to a file, as recorder() begins it: `with world.record("run.feather"):`. The file
+        grows with the steps, each 15 of them or, fine, each one, and has all of it at the end, whatever is raised."""
+        name = os.fspath(path)
+        capsule = begin(self._capsule, assets, fine, False, keyframe_steps, buffer_bytes)
+        try:
+            file = open(name, "wb")  # a file that was there stays, when the world cannot be recorded
+        except BaseException:
+            _flat.recorder_destroy(capsule)
+            raise
+        self._recording = Recording(capsule, self._capsule, file, 1 if fine else DRAIN_STEPS)
+        return self._recording
 
     @classmethod
     def load(
@@ -200,7 +246,11 @@ class World:
     def step(self, dt: float = 1 / 60) -> None:
         """Moves the world on by dt seconds, 0 to 1. Other Python threads run meanwhile. What the pair filter raised
         is raised at the end."""
-        _flat.world_step(self._capsule, dt)
+        try:
+            _flat.world_step(self._capsule, dt)
+        finally:
+            if self._recording is not None:
+                self._recording._after_step()
 
     gravity = _Gravity()
 

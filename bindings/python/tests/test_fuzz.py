@@ -136,6 +136,8 @@ def test_random_calls_of_the_package() -> None:
             target = values.random.choice([v for v in values.kept if isinstance(v, (World, Body)) or hasattr(v, "world")])
             names = [n for n in dir(type(target)) if not n.startswith("_")]
             name = values.random.choice(names)
+            if name == "record":  # it writes files of any name
+                continue
             if name == "close" and values.random.random() < 0.9:
                 continue
             calls += 1
