@@ -433,6 +433,12 @@ FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response)
     return w_and(w_greater(rise, IMPACT_SHARE * load), w_greater(rise * response, w_set(IMPACT_SPEED)));
 }
 
+// Three points hold a body flat; two let it turn about their line
+FE_INLINE wide_mask NAMED(is_held)(const ROW *row)
+{
+    return POINTS > 2 ? w_greater(row->point[POINTS > 2 ? 2 : 0].mass, w_set(0.0f)) : no_lane();
+}
+
 // Lanes of which the last friction changed too much, m/s, see settle. Of impacts those of more than one point, which
 // may hold the body
 FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change, wide rise, int kind)
@@ -441,7 +447,7 @@ FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change,
     wide response = p->a.inverse_mass + p->b.inverse_mass, load = NAMED(load_of)(row);
     wide friction = w_abs(row->tangent_impulse[0]) + w_abs(row->tangent_impulse[1]);
     wide_mask gentle = w_greater(w_set(IMPACT_SPEED), rise * response);
-    wide_mask lands = w_and(NAMED(has_many)(row), NAMED(is_impact)(load, rise, response));
+    wide_mask lands = w_and(NAMED(is_held)(row), NAMED(is_impact)(load, rise, response));
     if (kind & FE__ROW_SPECIAL) lands = w_and(lands, w_not(w_greater(x->restitution, w_set(0.0f))));
     wide least = w_choose(gentle, UNSETTLED * load, UNSETTLED_LANDING * friction);
     return w_and(w_or(gentle, lands), w_greater(change, least * response + UNSETTLED_SPEED));
