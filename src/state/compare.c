@@ -319,7 +319,7 @@ static int32_t tell_missing(const comparison *c, const char *field, int32_t in_a
 // Rows beyond those of the table are not there
 static int32_t compare_rows(const comparison *c, fe__table_number table, int32_t row_a, int32_t row_b)
 {
-    _Alignas(16) unsigned char a[FE__LARGEST_RECORD], b[FE__LARGEST_RECORD];
+    _Alignas(FE__RECORD_ALIGNMENT) unsigned char a[FE__LARGEST_RECORD], b[FE__LARGEST_RECORD];
     int32_t in_a = row_a >= 0 && row_a < fe__rows_of(c->a.snapshot, table);
     int32_t in_b = row_b >= 0 && row_b < fe__rows_of(c->b.snapshot, table);
     if (in_a != in_b) return tell_missing(c, fe__tables[table].name, in_a);

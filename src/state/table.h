@@ -55,9 +55,10 @@ typedef enum fe__table_number {
 } fe__table_number;
 
 enum {
-    FE__ROOM = 320,           // bytes, for the largest record that is made
-    FE__LARGEST_RECORD = 640, // bytes, of any table
-    FE__BLOCK = 64            // rows that are written and checked at a time
+    FE__ROOM = 320,            // bytes, for the largest record that is made
+    FE__LARGEST_RECORD = 640,  // bytes, of any table
+    FE__RECORD_ALIGNMENT = 64, // bytes, of any record
+    FE__BLOCK = 64             // rows that are written and checked at a time
 };
 
 // Records of a block of rows: the world's own, or made in the rooms

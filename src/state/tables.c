@@ -205,6 +205,7 @@ const fe__range fe__ranges[FE__RANGES] = {
 #define DEFINE(name, record, list)                                                         \
     static const fe__field name[] = FE__FIELDS(record, list);                              \
     _Static_assert(sizeof(record) <= FE__LARGEST_RECORD, "there is room for each record"); \
+    _Static_assert(_Alignof(record) <= FE__RECORD_ALIGNMENT, "it lies as it must");        \
     FE__IS_WHOLE(record, list);                                                            \
     enum { name##_size = 0 list(record, FE__STATE_SIZE, FE__NO_FIELD, FE__NO_FIELD) };     \
     static void put_##name(const fe__rows_block *block, int32_t rows, unsigned char *out)  \
