@@ -176,6 +176,12 @@ FE_OUT_RECORDS
 %typemap(in, numinputs=0) fe_closest *out_closest (fe_closest value) "$1 = &value;"
 %typemap(argout) fe_hit *out_hit { SWIG_arg += result > 0 ? push_hit(L, $1) : push_nil(L); }
 %typemap(argout) fe_closest *out_closest { SWIG_arg += result > 0 ? push_closest(L, $1) : push_nil(L); }
+%apply SWIGTYPE *OUT_RECORD { fe_difference *out_difference };
+%typemap(argout) fe_difference *out_difference %{
+    if (result > 0) lua_pushvalue(L, call_record);
+    else lua_pushnil(L);
+    SWIG_arg++;
+%}
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------
 
