@@ -2,6 +2,7 @@
 // fallen for a second. The least of 50 calls, us; vertices go to an array that has room for all.
 #include "bench.h"
 
+#include "boxes.h"
 #include "feather.h"
 #include "memory.h"
 
@@ -27,17 +28,6 @@ static fe_geometry form_of(int32_t i)
     return form;
 }
 
-static void add(fe_world *world, int32_t type, double x, double y, double z, const fe_geometry *form)
-{
-    fe_body_def def;
-    fe_body body = 0;
-    fe_shape shape = 0;
-    fe_body_def_init(&def, sizeof def);
-    def.type = type, def.transform = fe_make_transform(x, y, z);
-    fe_body_create(world, &def, &body);
-    fe_shape_create(world, body, NULL, form, &shape);
-}
-
 static fe_world *heap_of(int32_t bodies)
 {
     enum { SIDE = 20 };
@@ -45,10 +35,11 @@ static fe_world *heap_of(int32_t bodies)
     fe_geometry form;
     if (fe_world_create(NULL, &world) != FE_OK) return NULL;
     fe_geometry_plane(&form, 0.0f, 1.0f, 0.0f, 0.0f);
-    add(world, FE_BODY_STATIC, 0.0, 0.0, 0.0, &form);
+    bench_add_body(world, FE_BODY_STATIC, 0.0, 0.0, 0.0, &form);
     for (int32_t i = 0; i < bodies; ++i) {
         form = form_of(i);
-        add(world, FE_BODY_DYNAMIC, 1.2 * (i % SIDE), 0.6 + 1.2 * (i / SIDE / SIDE), 1.2 * (i / SIDE % SIDE), &form);
+        bench_add_body(world, FE_BODY_DYNAMIC, 1.2 * (i % SIDE), 0.6 + 1.2 * (i / SIDE / SIDE), 1.2 * (i / SIDE % SIDE),
+                       &form);
     }
     for (int32_t i = 0; i < STEPS; ++i)
         if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) return NULL;

@@ -3,13 +3,14 @@
 // turn.
 #include "bench.h"
 
+#include "boxes.h"
 #include "feather.h"
 #include "memory.h"
+#include "stats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { FRAMES = 16, BACK = 8, ROUNDS = 60, WARM = 20, PLACES = FRAMES + 1, MOST = ROUNDS * BACK };
 
@@ -18,64 +19,11 @@ typedef struct times {
     int32_t count;
 } times;
 
-static double now(void) // us
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
-}
+static double now(void) { return 1e3 * bench_cpu_ms(); } // us of the processor
 
 static void note(times *t, double since) { t->us[t->count++] = now() - since; }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(times *t)
-{
-    qsort(t->us, (size_t)t->count, sizeof *t->us, compare);
-    return t->us[t->count / 2];
-}
-
-static void add(fe_world *world, int32_t type, double x, double y, double z, const fe_geometry *form)
-{
-    fe_body_def def;
-    fe_body body = 0;
-    fe_shape shape = 0;
-    fe_body_def_init(&def, sizeof def);
-    def.type = type, def.transform = fe_make_transform(x, y, z);
-    fe_body_create(world, &def, &body);
-    fe_shape_create(world, body, NULL, form, &shape);
-}
-
-// Boxes of 1 m: a heap 8 wide and 8 deep that never sleeps, or a level of boxes that lie apart and fall asleep
-static fe_world *world_of(int32_t boxes, int32_t sleeps)
-{
-    enum { SIDE = 8, ROW = 100, STEPS = 300 };
-    fe_world *world = NULL;
-    fe_world_tuning tuning;
-    fe_geometry form;
-    if (fe_world_create(NULL, &world) != FE_OK) return NULL;
-    fe_world_tuning_init(&tuning, sizeof tuning);
-    tuning.sleep_enabled = sleeps;
-    fe_world_set_tuning(world, &tuning);
-    fe_geometry_plane(&form, 0.0f, 1.0f, 0.0f, 0.0f);
-    add(world, FE_BODY_STATIC, 0.0, 0.0, 0.0, &form);
-    fe_geometry_box(&form, 0.5f, 0.5f, 0.5f);
-    for (int32_t i = 0; i < boxes; ++i) {
-        double lean = 0.05 * (double)(i * 7 % 11);
-        if (sleeps)
-            add(world, FE_BODY_DYNAMIC, 1.5 * (i % ROW), 0.5, 1.5 * (i / ROW), &form);
-        else
-            add(world, FE_BODY_DYNAMIC, 0.95 * (i % SIDE) + lean, 0.6 + 1.1 * (i / SIDE / SIDE),
-                0.95 * (i / SIDE % SIDE) - lean, &form);
-    }
-    for (int32_t i = 0; i < STEPS; ++i)
-        if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) return NULL;
-    return world;
-}
+static double median(times *t) { return bench_stats_of(t->us, t->count).median; }
 
 typedef struct copies {
     unsigned char *from, *to[PLACES];
@@ -149,7 +97,7 @@ int bench_command_history(int argc, char **argv)
 {
     enum { AWAKE = 1000, ASLEEP = 10000 };
     (void)argc, (void)argv;
-    fe_world *pile = world_of(AWAKE, 0), *level = world_of(ASLEEP, 1);
+    fe_world *pile = bench_create_pile(AWAKE), *level = bench_create_rest(ASLEEP);
     if (pile == NULL || level == NULL) {
         fprintf(stderr, "feather-bench: history: %s\n", fe_last_error());
         return 2;

@@ -3,53 +3,21 @@
 // that of the processor, us.
 #include "bench.h"
 
+#include "boxes.h"
 #include "feather.h"
 #include "memory.h"
+#include "stats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-enum { USUAL_BODIES = 1000, USUAL_SLEEPING = 10000, PILE_STEPS = 1200, REST_STEPS = 3000, SETTLE = 240 };
+enum { USUAL_BODIES = 1000, USUAL_SLEEPING = 10000, PILE_STEPS = 1200, REST_STEPS = 3000 };
 
-static double now(void) // us
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
-}
+static double now(void) { return 1e3 * bench_cpu_ms(); } // us of the processor
 
-static void add(fe_world *world, int32_t type, double x, double y, double z, const fe_geometry *form)
-{
-    fe_body_def def;
-    fe_body body = 0;
-    fe_shape shape = 0;
-    fe_body_def_init(&def, sizeof def);
-    def.type = type, def.transform = fe_make_transform(x, y, z);
-    fe_body_create(world, &def, &body);
-    fe_shape_create(world, body, NULL, form, &shape);
-}
-
-// A pile that never sleeps, or boxes side by side that do
 static fe_world *boxes(int32_t bodies, int32_t sleeps)
 {
-    fe_world *world = NULL;
-    fe_geometry form;
-    fe_world_tuning tuning;
-    if (fe_world_create(NULL, &world) != FE_OK) return NULL;
-    fe_world_tuning_init(&tuning, sizeof tuning);
-    tuning.sleep_enabled = sleeps;
-    fe_world_set_tuning(world, &tuning);
-    fe_geometry_plane(&form, 0.0f, 1.0f, 0.0f, 0.0f);
-    add(world, FE_BODY_STATIC, 0.0, 0.0, 0.0, &form);
-    fe_geometry_box(&form, 0.5f, 0.5f, 0.5f);
-    int32_t side = sleeps ? 100 : 10;
-    double gap = sleeps ? 1.5 : 1.05;
-    for (int32_t i = 0; i < bodies; ++i)
-        add(world, FE_BODY_DYNAMIC, gap * (i % side), 0.5 + 1.05 * (i / side / side), gap * (i / side % side), &form);
-    for (int32_t i = 0; i < SETTLE; ++i)
-        if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) return NULL;
-    return world;
+    return sleeps ? bench_create_rest(bodies) : bench_create_pile(bodies);
 }
 
 typedef struct costs {
@@ -65,17 +33,7 @@ static double step(fe_world *world)
     return now() - start;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double middle(double *times, int32_t count)
-{
-    qsort(times, (size_t)count, sizeof *times, compare_doubles);
-    return times[count / 2];
-}
+static double middle(double *times, int32_t count) { return bench_stats_of(times, count).median; }
 
 static int64_t waiting(fe_recorder *recorder)
 {

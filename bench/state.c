@@ -2,80 +2,20 @@
 // the ground. Medians of the processor's time, by turns with memcpy of as many bytes.
 #include "bench.h"
 
+#include "boxes.h"
 #include "feather.h"
 #include "memory.h"
-#include "random.h"
+#include "stats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { ROUNDS = 41, CALLS = 5 };
+enum { ROUNDS = 41, CALLS = 5, AWAKE = 1000, ASLEEP = 10000 };
 enum { COPY, SAVE, RESTORE, LOAD, CHECK, COMPARE };
 static const char *const names[CALLS + 1] = {"memcpy", "save", "restore", "load", "check", "compare"};
 
-static double now(void) // us of the processor
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
-}
-
-static void add(fe_world *world, int32_t type, double x, double y, double z, float half, float half_height)
-{
-    fe_body_def def;
-    fe_body body = 0;
-    fe_shape shape = 0;
-    fe_geometry form;
-    fe_geometry_box(&form, half, half_height, half);
-    fe_body_def_init(&def, sizeof def);
-    def.type = type, def.transform = fe_make_transform(x, y, z);
-    fe_body_create(world, &def, &body);
-    fe_shape_create(world, body, NULL, &form, &shape);
-}
-
-static fe_world *new_world(int32_t sleeps)
-{
-    fe_world_def def;
-    fe_world *world = NULL;
-    fe_world_def_init(&def, sizeof def);
-    def.worker_count = 1;
-    if (fe_world_create(&def, &world) != FE_OK) return NULL;
-    fe_world_tuning tuning;
-    fe_world_tuning_init(&tuning, sizeof tuning);
-    tuning.sleep_enabled = sleeps;
-    fe_world_set_tuning(world, &tuning);
-    add(world, FE_BODY_STATIC, 0.0, -1.0, 0.0, 300.0f, 1.0f);
-    return world;
-}
-
-static fe_world *make_pile(void)
-{
-    enum { BODIES = 1000, COLUMNS = 8, LAYER = COLUMNS * COLUMNS, STEPS = 400 };
-    const double pitch = 1.05, jitter = 0.1, layer_height = 1.2; // m
-    fe_world *world = new_world(0);
-    uint64_t state = 0x9e3779b97f4a7c15u;
-    for (int32_t i = 0; i < BODIES && world; ++i) {
-        int32_t c = i % LAYER;
-        double x = pitch * (c % COLUMNS - COLUMNS / 2) + jitter * bench_random(&state);
-        double z = pitch * (c / COLUMNS - COLUMNS / 2) + jitter * bench_random(&state);
-        add(world, FE_BODY_DYNAMIC, x, 1.0 + layer_height * (i / LAYER), z, 0.5f, 0.5f);
-    }
-    for (int32_t i = 0; i < STEPS && world; ++i) fe_world_step(world, 1.0f / 60.0f);
-    return world;
-}
-
-static fe_world *make_rest(void)
-{
-    enum { BODIES = 10000, SIDE = 100, STEPS = 120 };
-    const double pitch = 1.5; // m
-    fe_world *world = new_world(1);
-    for (int32_t i = 0; i < BODIES && world; ++i)
-        add(world, FE_BODY_DYNAMIC, pitch * (i % SIDE), 0.5, pitch * (i / SIDE), 0.5f, 0.5f);
-    for (int32_t i = 0; i < STEPS && world; ++i) fe_world_step(world, 1.0f / 60.0f);
-    return world;
-}
+static double now(void) { return 1e3 * bench_cpu_ms(); } // us of the processor
 
 typedef struct room {
     fe_world *world;
@@ -104,18 +44,6 @@ static int32_t call(room *r, int32_t which)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median_of(double *values)
-{
-    qsort(values, ROUNDS, sizeof *values, by_value);
-    return values[ROUNDS / 2];
-}
-
 static int measure(const char *scene, fe_world *world)
 {
     double us[CALLS + 1][ROUNDS], median[CALLS + 1];
@@ -135,7 +63,7 @@ static int measure(const char *scene, fe_world *world)
     printf("%s: %d bodies, %d pairs, %d contacts, %.0f bytes a body\n", scene, (int)counters.bodies,
            (int)counters.pairs, (int)counters.contacts, (double)r.size / (double)(counters.bodies - 1));
     for (int32_t which = COPY; which <= COMPARE; ++which) {
-        median[which] = median_of(us[which]);
+        median[which] = bench_stats_of(us[which], ROUNDS).median;
         printf("  %-8s %9.1f us  %6.1f memcpy\n", names[which], median[which], median[which] / median[COPY]);
     }
     free(r.bytes), free(r.copy);
@@ -145,7 +73,7 @@ static int measure(const char *scene, fe_world *world)
 int bench_command_state(int argc, char **argv)
 {
     (void)argv;
-    if (argc > 0 || measure("pile", make_pile()) || measure("rest", make_rest())) {
+    if (argc > 0 || measure("pile", bench_create_pile(AWAKE)) || measure("rest", bench_create_rest(ASLEEP))) {
         fprintf(stderr, "feather-bench: state: %s\n", argc > 0 ? "it takes no arguments" : fe_last_error());
         return 2;
     }
