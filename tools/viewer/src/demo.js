@@ -9,8 +9,10 @@ function ground(world) {
     body.addPlane([0, 1, 0], 0, { friction: 0.7 });
     return body;
 }
+// The hue of an island is that of its oldest body, by its number: `n` numbers are used up
+function skip(world, n) { for (let k = 0; k < n; ++k) world.createBody().destroy(); }
 function pyramid(world) {
-    ground(world);
+    ground(world), skip(world, 1);
     const side = 12, size = 0.5;
     for (let level = 0; level < side; ++level) {
         const n = side - level;
@@ -83,6 +85,7 @@ function heap(world) {
         heights[k] = 0.012 * Math.min(r, 19) ** 2 + 0.25 * Math.sin(x * 0.9) * Math.cos(z * 0.7);
     }
     const land = world.createBody({ type: 'static', position: [-20, 0, -20] });
+    skip(world, 8);
     land.createShape(world.createHeightfield({ rows: n, columns: n, heights, cellX: 1, cellZ: 1 }), { friction: 0.7 });
     const hulls = [0, 1, 2].map((k) => {
         const points = [], r = random(k + 3);

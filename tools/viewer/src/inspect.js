@@ -12,7 +12,13 @@ export function shown(v) {
     const text = Number.isInteger(v) && a < 1e7 ? String(v) : a === 0 ? '0' : a >= 1e6 || a < 1e-4 ? v.toExponential(2) : v.toFixed(a >= 1000 ? 1 : a >= 100 ? 2 : a >= 10 ? 3 : 4);
     return text.replace('-', '−');
 }
-const xyz = (v) => ['x', 'y', 'z', 'w'].filter((k) => k in v).map((k) => shown(v[k])).join('&ensp;');
+// The numbers of a vector with as many decimals as the largest of them deserves
+const xyz = (v) => {
+    const keys = ['x', 'y', 'z', 'w'].filter((k) => k in v), most = Math.max(...keys.map((k) => Math.abs(v[k])));
+    if (!(most < 1e5) || (most < 1e-3 && most > 0)) return keys.map((k) => shown(v[k])).join('&ensp;');
+    const digits = most === 0 || keys.every((k) => Number.isInteger(v[k])) ? 0 : most >= 1000 ? 1 : most >= 100 ? 2 : most >= 10 ? 3 : 4;
+    return keys.map((k) => v[k].toFixed(digits).replace(/^-(0\.?0*)$/, '$1').replace('-', '−')).join('&ensp;');
+};
 const raw = (v) => (typeof v === 'object' ? ['x', 'y', 'z', 'w'].filter((k) => k in v).map((k) => v[k]).join(', ') : v);
 const length = (v) => Math.hypot(v.x, v.y, v.z);
 export function eulerOf({ x, y, z, w }) { // about x, then y, then z

@@ -19,6 +19,7 @@ import * as load from './load.js';
 import * as keys from './keys.js';
 
 const $ = (id) => document.getElementById(id);
+const PHONE = 760; // pixels, below which panels lie over the view
 const BUDGET = 12; // ms of a frame that steps may take; a world too heavy for that is shown slower
 const PANELS = 90; // ms between two updates of text while it plays
 const SLOT = 2097152; // handles count bodies in their lowest 21 bits
@@ -47,8 +48,9 @@ class App {
                 document.body.classList.remove('left', 'right'), document.body.classList.toggle(side, on);
             };
         }
-        new ResizeObserver(() => this.layout()).observe($('bottom'));
-        this.theme(localStorageOf('theme') ?? 'dark');
+        for (const id of ['bottom', 'left', 'right']) new ResizeObserver(() => this.layout()).observe($(id));
+        addEventListener('resize', () => this.layout());
+        this.layout(), this.theme(localStorageOf('theme') ?? 'dark');
         requestAnimationFrame((now) => this.#frame(now));
     }
 
@@ -181,6 +183,13 @@ class App {
     }
     seek(step) { if (!this.live && this.playback) this.playback.seek(step), (this.owed = 0); }
 
+    // At once, however long it takes: for scripts
+    jump(step) {
+        this.pause(), this.seek(step);
+        while (this.goal !== null && this.playback.ready) this.playback.work(1000);
+        this.changed();
+        return this.step;
+    }
     #advance(dt) {
         const until = performance.now() + BUDGET, fine = this.timeline.speed <= 1, pb = this.playback;
         this.owed += (dt * this.timeline.speed) / this.dt;
@@ -274,6 +283,9 @@ class App {
     panels() { this.#panels(performance.now(), true); }
     layout() {
         document.documentElement.style.setProperty('--bottom', `${$('bottom').offsetHeight}px`);
+        const shown = (id) => (getComputedStyle($(id)).display === 'none' ? null : $(id).getBoundingClientRect());
+        const wide = innerWidth > PHONE, left = wide && shown('left'), right = wide && shown('right');
+        this.view.centre(left ? left.right : 0, $('top').getBoundingClientRect().bottom, right ? right.left : innerWidth, $('bottom').getBoundingClientRect().top);
     }
     show(part, on = !this.parts.has(part)) {
         on ? this.parts.add(part) : this.parts.delete(part);
@@ -313,7 +325,7 @@ class App {
     // ---- what is picked ----
     pick(what) {
         this.picked = what;
-        if (what && innerWidth <= 760 && !document.body.classList.contains('left')) document.body.classList.add('right');
+        if (what && innerWidth <= PHONE && !document.body.classList.contains('left')) document.body.classList.add('right');
         if (!what) document.body.classList.remove('right');
         if (!this.world) return this.inspector.show();
         this.#lines(), this.inspector.show(), this.outline.show(), (this.view.dirty = true);

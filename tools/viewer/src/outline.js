@@ -47,7 +47,7 @@ export class Outline {
         tabs.replaceChildren(...Object.keys(FILTERS).map((name) => {
             const b = document.createElement('button');
             b.setAttribute('role', 'tab'), b.setAttribute('aria-selected', name === this.tab);
-            b.innerHTML = `${name}<small>${counts[name] || ''}</small>`, b.onclick = () => this.choose(name);
+            b.innerHTML = `${name}<small>${counts[name] > 9999 ? `${Math.round(counts[name] / 1000)}k` : counts[name] || ''}</small>`, b.onclick = () => this.choose(name);
             return b;
         }));
         if (!app.world) this.rows = [];

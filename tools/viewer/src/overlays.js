@@ -69,6 +69,8 @@ class Points {
     }
 }
 
+const MOST_OUTLINE = 1200; // vertices: of a heightfield or a mesh the box around it is drawn instead
+
 // Parts that are seen through bodies, and those that are not
 const THROUGH = ['contacts', 'forces', 'joints', 'limits', 'centres'], SOLID = ['bounds', 'trees'];
 
@@ -90,7 +92,9 @@ export class Overlays {
     }
     // The outline of a body as it is after the step; `follow` then carries it to where the body is drawn
     pick(world, origin, body, colour) {
-        this.outline.set(body ? world.drawLines({ origin, parts: ['shapes'], only: body, segments: 40 }) : { count: 0 });
+        let lines = body ? world.drawLines({ origin, parts: ['shapes'], only: body, segments: 40 }) : { count: 0 };
+        if (lines.count > MOST_OUTLINE) lines = world.drawLines({ origin, parts: ['bounds'], only: body });
+        this.outline.set(lines);
         this.outline.material.color.set(colour);
     }
     follow(instances, body) {

@@ -1,6 +1,10 @@
 // plots.js - numbers over the time axis. A curve has its own scale: forms are compared, values are read at the line.
 import { COLUMNS, colourOf } from './series.js';
-import { shown } from './inspect.js';
+const SCALES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, '']];
+function short(v) {
+    const [scale, letter] = SCALES.find(([s]) => Math.abs(v) >= s) ?? [1, ''];
+    return Number.isInteger(v) && Math.abs(v) < 1e5 ? String(v) : (v / scale).toPrecision(3) + letter;
+}
 const $ = (id) => document.getElementById(id);
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -42,7 +46,7 @@ export class Plots {
         const { app } = this, all = this.all();
         for (const out of $('plot-names').querySelectorAll('output')) {
             const c = all[Number(out.dataset.k)], v = app.series.at(app.step, c.k);
-            out.textContent = Number.isNaN(v) ? '' : `${shown(v)} ${c.unit}`;
+            out.textContent = Number.isNaN(v) ? '' : `${short(v)} ${c.unit}`;
         }
         $('plot-line').style.left = `${100 * app.timeline.part(app.step)}%`;
     }

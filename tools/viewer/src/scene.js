@@ -5,8 +5,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { ground } from './materials.js';
 
 const LOOKS = {
-    dark: { sky: 0x1a1f26, horizon: 0x262d37, ground: 0x2c323b, grid: 0x4a5462, fill: [0xc9dcf5, 0x39342e, 1.25], sun: 2.5 },
-    light: { sky: 0xdfe6ee, horizon: 0xeef2f6, ground: 0xdde2e8, grid: 0xb0b9c4, fill: [0xffffff, 0xb8b2a8, 1.75], sun: 2.1 },
+    dark: { sky: 0x1b1f25, horizon: 0x2b3038, ground: 0x343a43, grid: 0x5a636f, fill: [0xdbe4f2, 0x4a453f, 1.7], sun: 2.2 },
+    light: { sky: 0xdfe6ee, horizon: 0xeef2f6, ground: 0xe3e7ec, grid: 0xb4bcc6, fill: [0xffffff, 0xc4bfb6, 2.1], sun: 1.9 },
 };
 const SUN = new THREE.Vector3(-0.45, 0.8, 0.4).normalize(), SHADOW = 2048; // texels
 const FAR_FROM_ORIGIN = 2000; // m, beyond which the origin follows the camera
@@ -55,14 +55,21 @@ export class View {
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.renderer.setSize(w, h, false);
         this.camera.aspect = w / h, this.camera.updateProjectionMatrix();
-        this.width = w, this.height = h, this.dirty = true;
+        this.width = w, this.height = h, this.centre(...(this.free ?? [0, 0, w, h]));
+    }
+    // What the camera looks at lies in the middle of what panels leave free: left, top, right, bottom
+    centre(left, top, right, bottom) {
+        this.free = [left, top, right, bottom];
+        this.camera.setViewOffset(this.width, this.height, (this.width - left - right) / 2, (this.height - top - bottom) / 2, this.width, this.height);
+        this.dirty = true;
     }
     // The box into the picture, from where the camera looks now
     frame(box, near = 1) {
         if (box.isEmpty()) return;
         const centre = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 0.05);
-        const half = THREE.MathUtils.degToRad(this.camera.fov / 2), narrow = Math.min(1, this.camera.aspect);
-        const away = this.camera.position.clone().sub(this.controls.target).setLength((0.92 * near * radius) / Math.sin(half) / narrow);
+        const half = THREE.MathUtils.degToRad(this.camera.fov / 2), [left, top, right, bottom] = this.free;
+        const narrow = Math.min(bottom - top, right - left) / this.height; // of the height, what is free
+        const away = this.camera.position.clone().sub(this.controls.target).setLength((0.92 * near * radius) / Math.sin(half) / Math.max(narrow, 0.1));
         this.controls.target.copy(centre), this.camera.position.copy(centre).add(away);
         this.controls.update(), this.dirty = true;
     }
