@@ -31,7 +31,7 @@ static fe_body add(fe_world *world, fe_body_type type, fe_transform at, const fe
     fe_body body;
     fe_shape shape;
     fe_body_def_init(&def, sizeof def);
-    def.type = type;
+    def.type = (int32_t)type;
     def.transform = at;
     must(fe_body_create(world, &def, &body));
     must(fe_shape_create(world, body, NULL, form, &shape));
