@@ -55,6 +55,7 @@ class App {
     }
 
     // ---- what is open ----
+    get scanDone() { return !this.growing && this.scanner.ended; }
     get live() { return this.taken.world !== null; }
     get world() { return this.taken.world ?? this.playback?.world ?? null; }
     get first() { return this.live ? 0 : this.playback?.first ?? 0; }
@@ -70,7 +71,7 @@ class App {
     begin(name, isLive = false) {
         this.taken.end(), this.other.end(), this.playback?.destroy();
         const recording = (this.recording = new Recording()), playback = (this.playback = new Playback(recording));
-        this.maker = null, this.expected = 0, this.scanDone = false, this.isFollowingEnd = isLive, this.growing = true, this.fresh = true;
+        this.maker = null, this.expected = 0, this.isFollowingEnd = isLive, this.growing = true, this.fresh = true;
         this.notes = [], this.names.clear(), this.timeline.marks = [], this.pins = [], this.following = null, this.fileName = name;
         this.pick(null), this.instances.clear(), this.view.origin = [0, 0, 0];
         this.scanner.clear(), this.owed = 0, this.playing = true;
@@ -87,6 +88,7 @@ class App {
             end: () => {
                 if (!isThis()) return;
                 this.growing = false;
+                if (this.scanDone) this.expected = 0;
                 if (!playback.ready && !recording.broken && !playback.error) recording.broken = recording.bytes ? `cut at byte ${recording.bytes}, within its first keyframe: nothing of it plays` : 'the file is empty';
                 this.#judge();
             },
@@ -158,7 +160,7 @@ class App {
     }
     scanEnded(end, error) {
         this.playback?.knows(end);
-        this.scanDone = !this.growing, this.marked = true;
+        this.marked = true;
         if (error && !this.playback.error) this.say(error, 'bad');
         if (this.scanDone && this.#sentence()) this.#judge();
         if (this.scanDone) this.expected = 0;

@@ -63,7 +63,7 @@ async function run() {
     const mine = generation;
     let rows = [], steps = [], events = [], last = performance.now();
     const send = (end) => {
-        if (steps.length || end) postMessage({ generation: mine, steps, rows, events, end });
+        if (steps.length || end) postMessage({ generation: mine, steps, rows, events, end, fed: fed.length });
         rows = [], steps = [], events = [], last = performance.now();
     };
     const tell = () => {
