@@ -419,8 +419,9 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
     }
 }
 
-// By how much the load rose: since the last substep, or by this relax pass, which stops what a shorter gap is left of.
-// What has restitution bounces after it
+// By how much the load rose: since the last substep, or by this relax pass. For a touch is stopped in two substeps: the
+// first leaves it the speed that its gap allows, the next takes that, and carries the load of the first. What has
+// restitution bounces after relax.
 FE_INLINE wide NAMED(rise_of)(const ROW *row, wide gain, int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
@@ -433,8 +434,8 @@ FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response)
     return w_and(w_greater(rise, IMPACT_SHARE * load), w_greater(rise * response, w_set(IMPACT_SPEED)));
 }
 
-// Lanes of which the last friction changed too much, m/s, see settle. Of impacts those of more than one point, which
-// may hold the body
+// Lanes whose friction changed too much by the last pass, see settle. Of impacts only those of several points, which
+// may hold the body flat. `change`: m/s
 FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change, wide rise, int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
@@ -447,10 +448,11 @@ FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change,
     return w_and(w_or(gentle, lands), w_greater(change, least * response + UNSETTLED_SPEED));
 }
 
-// The friction of a row that runs again and again against its points goes to where it must be by parts of what is left,
-// each a share r of the last: the last one, d1 after d0, is all that is left when it is stretched by 1 / (1 - r),
-// r = d0.d1 / d0.d0 (Aitken 1926). `last`: d0, and d1 afterwards; 0 after a part that was stretched. Returns how much
-// the next one is.
+// Friction and points that run by turns approach their result by parts, each the share r of the one before it. After d0
+// and d1 the rest is r d1 (1 + r + r^2 ...), so the next part, r d1, is stretched by
+//     1 / (1 - r),   r = d0.d1 / d0.d0     (Aitken 1926).
+// `last`: d0, then d1; 0 after a part that was stretched, which begins anew. Returns by how much the next part is to be
+// stretched.
 FE_INLINE wide NAMED(note_part)(const ROW *row, const wide *before, wide stretch, wide *last)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
@@ -463,9 +465,9 @@ FE_INLINE wide NAMED(note_part)(const ROW *row, const wide *before, wide stretch
 
 // A friction that comes at once, of what is set down on a slope or pushed, rotates the body, and the less it is held
 // the lower the friction grips: a cube's friction is two fifths of what it should be. The points resist that rotation
-// and friction has its next part, until little is left; what is at rest, or slides on, has its friction from before. So
-// it is where several points land: turned bodies would leave the ground, or get its friction once more. Of one point
-// nothing resists.
+// and friction has its next part, until little is left; what is at rest, or slides on, has its friction from before.
+// The same happens where several points land: a body that was left turning would leave the ground, or get friction
+// again when it falls back. One point resists no rotation.
 static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled,
                                                     wide rise, int kind)
 {
