@@ -4,6 +4,7 @@
 #define FE_W 4
 #include "step/finalize.h"
 
+#include "collision/form/hull_form.h"
 #include "core/simd.h"
 #include "solver/graph/graph.h"
 #include "solver/motion_check.h"
@@ -135,6 +136,20 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
+static const fe__form *form_of(const fe_world *w, int32_t i)
+{
+    int32_t shape = i < w->awake_body_count ? w->bodies[w->awake_bodies[i]].first_shape : -1;
+    return shape >= 0 ? &w->shapes[shape].form : NULL;
+}
+
+// A hull is somewhere else: its record first, then its vertices
+FE_FETCHES fetch_hulls(const fe_world *w, int32_t record, int32_t vertices)
+{
+    const fe__form *soon = form_of(w, record), *next = form_of(w, vertices);
+    if (soon) fe__hull_form_fetch(soon);
+    if (next) fe__hull_form_fetch_vertices(next);
+}
+
 // three numbers of a quad, whose fourth is the body's own
 static void take_flushed(float *out, const float *in)
 {
@@ -163,8 +178,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
     float swiftest = 0.0f;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        enum { AHEAD = 4 };
+        enum { AHEAD = 4, VERTICES_AHEAD = 2 };
         fetch_box(w, i + AHEAD);
+        fetch_hulls(w, i + AHEAD, i + VERTICES_AHEAD);
         int32_t index = w->awake_bodies[i];
         fe__body *body = w->bodies + index;
         fe__odometer *odometer = w->odometers + index;

@@ -1,6 +1,7 @@
 // narrow.h - what the narrow phases of plain pairs (narrow.c) and of pairs with a heightfield (narrow_field.c) share.
 #ifndef FE_STEP_NARROW_H
 #define FE_STEP_NARROW_H
+#include "collision/form/hull_form.h"
 #include "step/view.h"
 #include "world/step_scratch.h"
 
@@ -50,6 +51,23 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     fe__fetch(w->odometers + p->body_a, sizeof *w->odometers);
     fe__fetch(w->odometers + p->body_b, sizeof *w->odometers);
     if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);
+}
+
+// Hulls of shapes that are there
+FE_FETCHES fe__fetch_hulls(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fe__hull_form_fetch(&w->shapes[p->shape_a].form);
+    fe__hull_form_fetch(&w->shapes[p->shape_b].form);
+}
+
+// Arrays of hulls that are there
+FE_FETCHES fe__fetch_of_hulls(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    const fe__form *a = &w->shapes[p->shape_a].form, *b = &w->shapes[p->shape_b].form;
+    fe__hull_form_fetch_vertices(a), fe__hull_form_fetch_faces(a);
+    fe__hull_form_fetch_vertices(b), fe__hull_form_fetch_faces(b);
 }
 
 // how far the pair can close in the step, m

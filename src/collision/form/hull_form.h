@@ -3,6 +3,7 @@
 #define FE_COLLISION_FORM_HULL_FORM_H
 #include "collision/form/hull.h"
 #include "collision/form/support.h"
+#include "core/memory.h"
 
 // `index`: of its asset
 fe__form fe__hull_form(const fe__hull *hull, int32_t index);
@@ -31,6 +32,26 @@ static inline fe_dvec3 fe__in_hull(const fe__form *form, fe_dvec3 point)
 static inline fe_dvec3 fe__from_hull(const fe__form *form, fe_dvec3 point)
 {
     return fe__dadd(fe__widen(form->offset), fe__dscale((double)form->scale, point));
+}
+
+// Asks memory for a form's hull, then, when that is there, for its vertices and planes, and for what says which of them
+// are next to each other
+FE_FETCHES fe__hull_form_fetch(const fe__form *form)
+{
+    if (fe__form_is_hull(form)) fe__fetch(form->hull, sizeof *form->hull);
+}
+FE_FETCHES fe__hull_form_fetch_vertices(const fe__form *form)
+{
+    if (!fe__form_is_hull(form)) return;
+    const fe__hull *h = form->hull;
+    fe__fetch(h->vertices.x, (unsigned)((const char *)h->normals.x - (const char *)h->vertices.x));
+}
+FE_FETCHES fe__hull_form_fetch_faces(const fe__form *form)
+{
+    if (!fe__form_is_hull(form)) return;
+    const fe__hull *h = form->hull;
+    fe__fetch(h->normals.x, (unsigned)((const char *)h->tails.x - (const char *)h->normals.x));
+    fe__fetch(h->edges, (unsigned)((const char *)h->block + h->size - (const char *)h->edges));
 }
 
 #endif
