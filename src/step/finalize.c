@@ -136,18 +136,20 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
-static const fe__form *form_of(const fe_world *w, int32_t i)
+static int32_t first_shape_of(const fe_world *w, int32_t i)
 {
-    int32_t shape = i < w->awake_body_count ? w->bodies[w->awake_bodies[i]].first_shape : -1;
-    return shape >= 0 ? &w->shapes[shape].form : NULL;
+    return i < w->awake_body_count ? w->bodies[w->awake_bodies[i]].first_shape : -1;
 }
 
-// A hull is somewhere else: its record first, then its vertices
-FE_FETCHES fetch_hulls(const fe_world *w, int32_t record, int32_t vertices)
+// A hull is somewhere else: what of its shape names it, then its record, then its vertices
+FE_FETCHES fetch_hulls(const fe_world *w, int32_t i)
 {
-    const fe__form *soon = form_of(w, record), *next = form_of(w, vertices);
-    if (soon) fe__hull_form_fetch(soon);
-    if (next) fe__hull_form_fetch_vertices(next);
+    enum { SHAPES_AHEAD = 8, HULLS_AHEAD = 4, VERTICES_AHEAD = 2 };
+    int32_t soon = first_shape_of(w, i + SHAPES_AHEAD), next = first_shape_of(w, i + HULLS_AHEAD),
+            now = first_shape_of(w, i + VERTICES_AHEAD);
+    if (soon >= 0) fe__fetch(w->shapes + soon, (unsigned)offsetof(fe__shape, local_position));
+    if (next >= 0) fe__hull_form_fetch(&w->shapes[next].form);
+    if (now >= 0) fe__hull_form_fetch_vertices(&w->shapes[now].form);
 }
 
 // three numbers of a quad, whose fourth is the body's own
@@ -178,9 +180,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
     float swiftest = 0.0f;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        enum { AHEAD = 4, VERTICES_AHEAD = 2 };
+        enum { AHEAD = 4 };
         fetch_box(w, i + AHEAD);
-        fetch_hulls(w, i + AHEAD, i + VERTICES_AHEAD);
+        fetch_hulls(w, i);
         int32_t index = w->awake_bodies[i];
         fe__body *body = w->bodies + index;
         fe__odometer *odometer = w->odometers + index;

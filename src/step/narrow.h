@@ -41,6 +41,7 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
     fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
     fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
+    if (p->next_patch >= 0) fe__fetch_own(w, p->next_patch);
     if (m->points) {
         fe__fetch(w->points + m->points, sizeof *w->points);
         fe__fetch(w->features + m->points, sizeof *w->features);
@@ -53,15 +54,19 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);
 }
 
-// Hulls of shapes that are there
+// Where the records that it names are there: hulls; the next but one of the patches, and the points of the next
 FE_FETCHES fe__fetch_hulls(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
     fe__hull_form_fetch(&w->shapes[p->shape_a].form);
     fe__hull_form_fetch(&w->shapes[p->shape_b].form);
+    if (p->next_patch < 0) return;
+    fe__fetch(w->points + w->contacts[p->next_patch].points, sizeof *w->points);
+    int32_t second = w->pairs[p->next_patch].next_patch;
+    if (second >= 0) fe__fetch_own(w, second);
 }
 
-// Arrays of hulls that are there
+// Where the hulls are there: their arrays
 FE_FETCHES fe__fetch_of_hulls(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
