@@ -48,17 +48,23 @@ static int32_t least_along(const fe__hull *hull, fe_vec3 direction, float *least
     return at[best];
 }
 
-// Of `own`, against the vertices of `other`, which stands at `position` with axes turned by `rotation`.
+// Of `own`, against the vertices of `other`, which stands at `position` with axes turned by `rotation`. A plane holds
+// the hulls apart by no more than it does any vertex: that which lies least far along the best so far shows most planes
+// to be worse, by the same sum as all vertices.
 static fe__hull_axis of_faces(const fe__hull *own, const fe__hull *other, fe_vec3 position, const fe__mat3 *rotation)
 {
     fe__hull_axis best = {.separation = -FLT_MAX};
+    fe_vec3 nearest = fe__hull_vertex(other, 0);
     for (int32_t i = 0; i < own->face_count; ++i) {
         float least;
-        fe_vec3 normal = fe__hull_normal(own, i);
-        int32_t deepest = least_along(other, fe__mul_transposed(rotation, normal), &least);
-        float separation = least + (fe__dot(normal, position) - own->distances[i]);
-        if (separation > best.separation)
-            best = (fe__hull_axis){.separation = separation, .normal = normal, .a = i, .b = deepest};
+        fe_vec3 normal = fe__hull_normal(own, i), direction = fe__mul_transposed(rotation, normal);
+        float beyond = fe__dot(normal, position) - own->distances[i];
+        if (fe__dot(nearest, direction) + beyond <= best.separation) continue;
+        int32_t deepest = least_along(other, direction, &least);
+        float separation = least + beyond;
+        if (!(separation > best.separation)) continue;
+        best = (fe__hull_axis){.separation = separation, .normal = normal, .a = i, .b = deepest};
+        nearest = fe__hull_vertex(other, deepest);
     }
     return best;
 }
