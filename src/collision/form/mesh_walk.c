@@ -95,14 +95,25 @@ static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
 // ---- triangles -----------------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+// Corner k of a triangle is the three floats at first + 3 corner[k], and one behind them that is another vertex's
+typedef struct corners {
+    const float *first;
+    const uint8_t *corner;
+} corners;
+static inline corners corners_of(const fe__mesh *mesh, int32_t slot)
 {
     const fe__mesh_leaf *leaf = mesh->leaves + (uint32_t)slot / FE__MESH_LEAF;
-    const uint8_t *corner = leaf->corner[(uint32_t)slot % FE__MESH_LEAF];
-    const float *first = mesh->vertices + 3 * (size_t)leaf->first_vertex;
-    fe__quad a = *(const loose_quad *)(first + 3 * (size_t)corner[0]),
-             b = *(const loose_quad *)(first + 3 * (size_t)corner[1]),
-             c = *(const loose_quad *)(first + 3 * (size_t)corner[2]);
+    return (corners){mesh->vertices + 3 * (size_t)leaf->first_vertex, leaf->corner[(uint32_t)slot % FE__MESH_LEAF]};
+}
+static inline fe__quad load_corner(const corners *c, int32_t k)
+{
+    return *(const loose_quad *)(c->first + 3 * (size_t)c->corner[k]);
+}
+
+static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+{
+    const corners of = corners_of(mesh, slot);
+    fe__quad a = load_corner(&of, 0), b = load_corner(&of, 1), c = load_corner(&of, 2);
     *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
     *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
 }
@@ -117,12 +128,14 @@ static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
 
 void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle)
 {
-    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
+    const corners of = corners_of(mesh, slot);
     const double *s = mesh->scale;
+    const fe__pair scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y}, z = {origin.z, origin.z};
+    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     for (int32_t k = 0; k < 3; ++k) {
-        const float *p = fe__mesh_vertex(mesh, slot, fe__mesh_own_corner(mesh, k));
-        fe_dvec3 corner = {s[0] * (double)p[0], s[1] * (double)p[1], s[2] * (double)p[2]};
-        triangle->vertex[k] = fe__narrow(fe__dsub(corner, origin));
+        fe__quad p = load_corner(&of, fe__mesh_own_corner(mesh, k));
+        fe__quad corner = fe__quad_narrow(scale_xy * fe__pair_low(p) - xy, scale_z * fe__pair_high(p) - z);
+        memcpy(triangle->vertex + k, &corner, sizeof *triangle->vertex);
     }
 }
 
