@@ -139,16 +139,10 @@ void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__
     }
 }
 
-// The next slot whose triangle meets the box, -1: no more
-static int32_t next_in_tree(fe__mesh_walk *w, fe__mesh_span *out)
+// Down to the next leaf whose box is met; 0: no more
+static int32_t find_leaf(fe__mesh_walk *w)
 {
-    for (;;) {
-        while (w->slot < w->end) {
-            int32_t slot = w->slot++;
-            set_span(w->mesh, slot, out);
-            if (meets(w, out)) return slot;
-        }
-        if (!w->top) return -1;
+    while (w->top) {
         uint32_t child = w->stack[--w->top];
         if (!(child & FE__MESH_LEAVES)) {
             open_node(w, w->mesh->nodes + child);
@@ -156,7 +150,23 @@ static int32_t next_in_tree(fe__mesh_walk *w, fe__mesh_span *out)
         }
         w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
         w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+        return 1;
     }
+    return 0;
+}
+
+// The next slot whose triangle meets the box, -1: no more
+static int32_t next_in_tree(fe__mesh_walk *w)
+{
+    fe__mesh_span span;
+    do {
+        while (w->slot < w->end) {
+            int32_t slot = w->slot++;
+            set_span(w->mesh, slot, &span);
+            if (meets(w, &span)) return slot;
+        }
+    } while (find_leaf(w));
+    return -1;
 }
 
 static int32_t next_of_near(fe__mesh_walk *w)
@@ -168,11 +178,7 @@ static int32_t next_of_near(fe__mesh_walk *w)
     return -1;
 }
 
-int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w)
-{
-    fe__mesh_span span;
-    return w->near ? next_of_near(w) : next_in_tree(w, &span);
-}
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w) { return w->near ? next_of_near(w) : next_in_tree(w); }
 
 int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
 {
@@ -181,17 +187,27 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
     return slot;
 }
 
+// Those of the walk's leaf that meet its box. Which do no branch can guess: each is written, and the next over it if it
+// does not count
+static void add_leaf(const fe__mesh_walk *w, fe__mesh_near *near)
+{
+    for (int32_t slot = w->slot; slot < w->end && near->count >= 0; ++slot) {
+        fe__mesh_span span;
+        set_span(w->mesh, slot, &span);
+        int32_t met = meets(w, &span);
+        if (near->count < FE__MESH_NEAR) {
+            near->spans[near->count] = span;
+            near->slots[near->count] = slot;
+            near->count += met;
+        } else if (met)
+            near->count = -1;
+    }
+}
+
 void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
 {
     fe__mesh_walk walk;
-    fe__mesh_span span;
     near->box = *box, near->count = 0, near->is_all = 0, near->among = near->among_last = 0;
     fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
-    for (int32_t slot; near->count >= 0 && (slot = next_in_tree(&walk, &span)) >= 0;) {
-        if (near->count < FE__MESH_NEAR) {
-            near->spans[near->count] = span;
-            near->slots[near->count++] = slot;
-        } else
-            near->count = -1;
-    }
+    while (near->count >= 0 && find_leaf(&walk)) add_leaf(&walk, near);
 }

@@ -1,7 +1,9 @@
 // viewer.mjs - the page shows what the library says: recordings of case.c, dropped, scrubbed, picked, cut, compared.
 import test, { before, after } from 'node:test';
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync, appendFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { openBrowser, openPage, drop, scanned } from './page.mjs';
 
@@ -183,6 +185,32 @@ test('?url= opens what a server has, and says what it lacks', async () => {
     await none.waitForFunction('!document.getElementById("banner").hidden');
     assert.match(await none.innerText('#banner-text'), /404/);
     await none.close(), server.close(), server.closeAllConnections();
+});
+
+test('a file that grows is shown live, from its start or from its last keyframe', async () => {
+    const file = `${files}/growing.feather`, half = said.cut;
+    writeFileSync(file, a.subarray(0, half));
+    const live = spawn('python3', ['tools/feather-live', file, '--port', '0', '--page', process.env.VIEWER_PAGE], { stdio: ['ignore', 'pipe', 'inherit'] });
+    try {
+        const [line] = await once(live.stdout, 'data'), host = String(line).match(/http:[^ ]*/)[0];
+        const shown = await openPage(browser, host);
+        await shown.waitForFunction(`viewer.playback?.ready && viewer.scanner.ended && viewer.last === ${said.cutStep}`);
+        assert.equal(await shown.evaluate('viewer.isEndKnown'), false);
+        await shown.waitForFunction(`viewer.step === ${said.cutStep}`); // it is there, and does not play what was
+        appendFileSync(file, a.subarray(half));
+        await shown.waitForFunction(`viewer.last === ${said.last} && viewer.scanner.ended`);
+        for (const wanted of said.steps) {
+            assert.equal(await shown.evaluate((step) => (viewer.jump(step), viewer.world.hash), wanted.step), wanted.hash);
+        }
+        const late = await openPage(browser, `${host}last`);
+        await late.waitForFunction('viewer.playback?.ready && viewer.scanner.ended');
+        assert.equal(await late.evaluate(`viewer.jump(${said.last}), viewer.world.hash`), said.steps.at(-1).hash);
+        assert.ok((await late.evaluate('viewer.first')) > said.last / 2);
+        assert.deepEqual([...shown.errors, ...late.errors], []);
+        await shown.close(), await late.close();
+    } finally {
+        live.kill();
+    }
 });
 
 test('on a phone the panels are sheets, and nothing lies outside the page', async () => {
