@@ -356,7 +356,7 @@ class App {
         for (const body of this.#bodies()) box.union(this.instances.bounds(body));
         const all = this.instances.bounds();
         this.view.range = Math.max(all.getSize(new THREE.Vector3()).length() / 2, 1);
-        this.view.frame(box.isEmpty() ? all : box, box.isEmpty() ? 0.8 : 2.2);
+        this.view.frame(box.isEmpty() ? all : box, box.isEmpty() ? 0.95 : 2.2);
     }
     follow() { this.following = this.following || !this.picked?.body ? null : this.picked.body, this.inspector.show(); }
     #pointer() {

@@ -115,6 +115,39 @@ test('the two first differ where C says it', async () => {
     await page.evaluate('viewer.other.end()');
 });
 
+test('the same world goes on beside itself with twice the substeps, from the step where one asks', async () => {
+    const found = await page.evaluate(({ pendulum }) => {
+        const at = () => viewer.other.world.body(Number(pendulum)).position, own = () => viewer.world.body(Number(pendulum)).position;
+        viewer.jump(57), viewer.other.settings();
+        const start = [at(), own(), viewer.world.substeps, viewer.other.world.substeps];
+        viewer.jump(100);
+        const later = [at(), own()];
+        viewer.jump(60); // before it: made anew there
+        const again = [at(), own()];
+        viewer.other.end();
+        return { start, later, again };
+    }, said);
+    assert.deepEqual(found.start[0], found.start[1]);
+    assert.equal(found.start[3], 2 * found.start[2]);
+    for (const [there, here] of [found.later, found.again]) assert.ok(Math.abs(there.y - here.y) < 0.05, `${there.y}, ${here.y}`); // both swing
+    assert.notEqual(found.later[0].y, found.start[0].y);
+});
+
+test('a body is copied as calls, a place as a link', async () => {
+    const [c, python, link] = await page.evaluate(({ pendulum }) => {
+        viewer.jump(57), viewer.pick({ body: Number(pendulum) });
+        const all = [], { copy } = viewer;
+        viewer.copy = (text) => all.push(text);
+        for (const what of ['c', 'python']) document.querySelector(`[data-do=${what}]`).click();
+        viewer.copy = copy;
+        return [...all, viewer.link()];
+    }, said);
+    const y = said.steps[2].pendulum[1];
+    assert.match(c, /fe_geometry_capsule\(&form, 0\.6\d*f, 0\.3\d*f\)/);
+    for (const text of [c, python]) assert.ok(text.includes(String(y)), text);
+    assert.match(link, /step=57&camera=(-?\d+\.\d{3}_){5}-?\d+\.\d{3}$/);
+});
+
 test('a packed recording plays as the plain one', async () => {
     await drop(page, [{ name: 'packed.feather', bytes: read('packed.feather') }]);
     for (const wanted of said.steps) same(await valuesAt(wanted.step), wanted);
