@@ -180,7 +180,7 @@ static void saving_a_difference_checks_its_base(void **state)
     FE_TRUE(fe_world_save(world, &options, NULL, 0) == FE_ERROR_DATA);
     for (int64_t at = 0; at + 8 <= base.size; at += 8) { // its structure is looked at, its numbers are not
         uint64_t held = take(base.data + at, 8);
-        put(base.data + at, UINT64_MAX - at);
+        put(base.data + at, UINT64_MAX - (uint64_t)at);
         options = against(base);
         unsigned char *out = malloc((size_t)most);
         int64_t size = fe_world_save(world, &options, out, most);
