@@ -21,6 +21,7 @@ $(BUILD)/js/api.js: bindings/js/generate.mjs include/feather.h
 	@mkdir -p $(BUILD)/js $(BUILD)/wasm
 	$(RUN)$(NODE) $< include/feather.h $(BUILD)/js $(BUILD)/wasm/exports
 $(BUILD)/js/api.d.ts $(BUILD)/wasm/exports: $(BUILD)/js/api.js
+	@: # made with it; without a recipe make would not look again whether they are new
 $(BUILD)/wasm/libc.o: bindings/js/libc.c
 	@mkdir -p $(@D)
 	$(RUN)$(WASM_CC) -std=gnu11 -Os -Wall -Wextra -c $< -o $@

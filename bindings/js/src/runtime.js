@@ -25,7 +25,7 @@ function renew() {
 }
 
 const decoder = new TextDecoder();
-function text(at) {
+export function text(at) {
     let end = at;
     while (u8[end]) ++end;
     return decoder.decode(u8.slice(at, end));
@@ -89,6 +89,12 @@ export const yes = (n) => ok(n) !== 0;
 const shown = (v) => (typeof v === 'string' ? JSON.stringify(v) : typeof v === 'object' && v ? v.constructor?.name ?? 'object' : String(v));
 export function wrong(name, wanted, v) { throw new TypeError(`${name} must be ${wanted}, is ${shown(v)}`); }
 export const lastError = () => text(x.fe_last_error());
+
+// ---- ends of objects ------------------------------------------------------------------------------------------------
+
+export const dead = (what) => { throw new FeatherError('FE_ERROR_STALE', `the ${what} is destroyed`); };
+export const free = new FinalizationRegistry((end) => end());
+export const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
 // ---- memory for one call --------------------------------------------------------------------------------------------
 
@@ -292,12 +298,23 @@ export function bytesIn(v, name) {
     u8.set(view, at);
     return [at, BigInt(view.length)];
 }
+// Text as UTF-8 that a 0 ends
+export function textIn(v, name) {
+    if (typeof v !== 'string' || v.includes('\0')) wrong(name, 'a string without zeros', v);
+    const bytes = new TextEncoder().encode(v), at = temp(bytes.length + 1);
+    u8.set(bytes, at), u8[at + bytes.length] = 0;
+    return at;
+}
 // Asks `call(at, capacity)` for bytes; into `into` if that is given
 export function bytesOut(call, into, name) {
     const size = Number(call(0, 0n));
     ok(size < 0 ? size : 0);
     const at = temp(size);
     ok(Math.min(Number(call(at, BigInt(size))), 0));
+    return bytesWritten(at, size, into, name);
+}
+// A copy of bytes of the module, or into `into`
+export function bytesWritten(at, size, into, name) {
     if (into === undefined) return u8.slice(at, at + size);
     if (!(into instanceof Uint8Array)) wrong(name, 'a Uint8Array', into);
     if (into.length < size) wrong(name, `a Uint8Array of at least ${size} bytes`, into);
