@@ -347,7 +347,7 @@ function TestSnapshots.testWrongOptions()
     lu.assertFalse(pcall(core.world_restore, world.native, core.save_options(), saved))
     lu.assertFalse(pcall(core.world_load, core.restore_options(), nil, saved))
     local flags = core.save_options()
-    flags.flags = 2
+    flags.flags = 4
     fails("flags", core.world_save, world.native, flags)
     world:destroy()
     fails("the world is destroyed", world.save, world)

@@ -49,7 +49,8 @@ def play(world: World, steps: int) -> int:
 
 
 def test_a_difference_goes_with_its_base() -> None:
-    world = pile()
+    store = Store()
+    world = pile(store)
     play(world, 40)
     base = world.save()
     play(world, 1)
@@ -58,7 +59,7 @@ def test_a_difference_goes_with_its_base() -> None:
     play(world, 5)
     assert world.restore(diff, base=base) is True and world.save() == whole
     assert len(world.save(base=whole)) <= 64
-    twin = World()
+    twin = World(store=store)
     assert twin.restore(diff, base=base) is True and twin.save() == whole
     assert twin.restore(whole, base=base) is True
     for bad in (None, whole, base[:-8], diff, b""):
