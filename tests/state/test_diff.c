@@ -289,7 +289,7 @@ static void runs_that_lie_are_refused(void **state)
     for (int32_t i = 0; i < ROUNDS; ++i) {
         int32_t changes = 1 + (int32_t)(draw(&seed) % 3), changed = 0;
         for (int32_t k = 0; k < changes; ++k) {
-            int64_t at = DIFF_HEADER + draw(&seed) % (uint64_t)(held.size - DIFF_HEADER);
+            int64_t at = DIFF_HEADER + (int64_t)draw(&seed) % (held.size - DIFF_HEADER);
             s.diff.data[at] = (unsigned char)(draw(&seed) % 4 ? draw(&seed) : 0xff);
             changed |= s.diff.data[at] != held.data[at];
         }
