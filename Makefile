@@ -11,6 +11,7 @@
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
+#   make viewer     build/viewer.html, a page that plays recordings; make test-viewer: its tests
 #   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
 #   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
@@ -285,7 +286,7 @@ docs:
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
-include $(wildcard bindings/*/rules.mk)
+include $(wildcard bindings/*/rules.mk) tools/viewer/rules.mk
 
 # the scene that every language plays; what calls cost in C
 $(BUILD)/feather-scenario $(BUILD)/feather-cost: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)
