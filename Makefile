@@ -44,6 +44,7 @@ RUN = $(if $(V),,@echo '  $@';)
 
 OPT ?= -O2
 SIMD_OPT ?= -O3
+COLD_OPT ?=
 # Constants are enumerators here, and count in floats too; clang 19 would warn of each.
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wno-enum-float-conversion $(if $(filter 1,$(WERROR)),-Werror)
 CXX_WARNINGS := -Wall -Wextra $(if $(filter 1,$(WERROR)),-Werror)
@@ -117,7 +118,7 @@ define stamp
 @echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
 $(BUILD)/flags: FORCE
-	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
+	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT)$(COLD_OPT:%= %) $(STRICT) $(LINK_FLAGS)))
 $(BUILD)/objects: FORCE
 	$(call stamp,$(OBJECTS:$(BUILD)/%=%))
 
@@ -126,6 +127,9 @@ $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	$(RUN)$(CC) $(C_FLAGS) $(HOT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
 # small matrices, whose loops are to be unrolled
 $(BUILD)/obj/solver/tree/%.o: HOT := $(SIMD_OPT)
+# rooms that no step enters
+COLD := api record replay state draw store collision/hull_build collision/mesh_build collision/cooked collision/surface
+$(COLD:%=$(BUILD)/obj/%/%.o): HOT := $(COLD_OPT)
 
 # Once per SIMD set. SIMD_OPT follows CFLAGS: a distribution's -O2 must not slow the kernels down.
 define simd_rule

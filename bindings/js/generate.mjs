@@ -155,22 +155,22 @@ const tableName = (type) => '$' + short(type);
 const writer = (r, f) => {
     const e = fieldEnum(f);
     const one = e ? (BITS.has(e) ? ['W.bits', pascal(e)] : ['W.word', pascal(e)])
-        : handles.has(f.type) ? ['W.h'] : vectors[f.type] ? ['W.' + vectors[f.type]] : records[f.type] ? ['W.record', tableName(f.type)] : ['W.' + numbers[f.type][1]];
+        : handles.has(f.type) ? ['W.h'] : vectors[f.type] ? ['W.' + vectors[f.type]] : records[f.type] ? ['W.record', tableName(f.type)] : f.type === 'int32_t' && SWITCH.test(f.name) ? ['W.flag'] : ['W.' + numbers[f.type][1]];
     return f.array ? ['W.array', `[${one[0]}, ${layout(f.type)[0]}, ${f.count}, ${one[1] ?? 0}]`] : one;
 };
 const find = (r, path) => path.split('.').reduce(({ r: at, offset }, name) => {
     const f = at.fields.find((g) => g.name === name);
     return { r: records[f.type], f, offset: offset + f.offset };
 }, { r, offset: 0 });
-// Only the library writes these: their tables have no fields
-const OUT_ONLY = ['fe_snapshot_info', 'fe_player_info', 'fe_divergence', 'fe_difference'];
+// Only the library writes these, unless a table of their fields is asked for, too
+const sized = new Set(['fe_snapshot_info', 'fe_player_info', 'fe_divergence', 'fe_difference']);
 const emittedTables = new Set(), tables = [];
 function table(type) {
     if (emittedTables.has(type)) return;
     emittedTables.add(type);
-    const r = records[type], fields = [];
+    const r = records[type], fields = [], aliases = [];
     for (const f of r.fields) {
-        if (hidden(f) || laidOut(r, f) || OUT_ONLY.includes(type)) continue;
+        if (hidden(f) || laidOut(r, f)) continue;
         const list = LISTS[`${type}.${f.name}`];
         if (f.pointer && !list) continue;
         if (list) {
@@ -186,13 +186,18 @@ function table(type) {
     }
     for (const [name, path] of Object.entries(ALIASES[type] ?? {})) {
         const { r: to, f, offset } = find(r, path);
-        fields.push(`${name}: [${offset}, ${name === 'friction' ? 'W.frictions' : writer(to ?? r, f)[0]}]`);
+        aliases.push(`${name}: [${offset}, ${name === 'friction' ? 'W.frictions' : writer(to ?? r, f)[0]}]`);
     }
-    const has = functions.some((g) => g.name === `${type}_init`);
-    const start = has ? `(a, n) => x.${type}_init(a, n)` : type === 'fe_transform' ? '(a) => { f32[(a + 36) >> 2] = 1; }' : type === 'fe_path' ? '(a) => { f32[(a + 36) >> 2] = 1; }' : type === 'fe_frame' ? '(a) => { f32[(a + 24) >> 2] = 1; }' : '0';
-    tables.push(`export const ${tableName(type)} = [${r.size}, ${start}, { ${fields.join(', ')} }];`);
+    tables.push(`export const ${tableName(type)} = [${r.size}, ${starter(type)}, { ${fields.join(', ')} }${aliases.length ? `, { ${aliases.join(', ')} }` : ''}];`);
 }
-const emittedReaders = new Set(), readers = [];
+function starter(type) {
+    if (functions.some((g) => g.name === `${type}_init`)) return `(a, n) => x.${type}_init(a, n)`;
+    const ones = { fe_transform: 36, fe_path: 36, fe_frame: 24 }[type]; // where the rotation's w lies
+    return ones ? `(a) => { f32[(a + ${ones}) >> 2] = 1; }` : '0';
+}
+// A reader of its own is fast; records that have a table, and are read once in a while, are read by that
+const emittedReaders = new Set(), OFTEN = new Set(['fe_transform', 'fe_bounds']);
+const isRare = (type) => emittedTables.has(type) && !OFTEN.has(type) && !records[type].fields.some((f) => f.type === 'int64_t' || f.type === 'char');
 const readOne = (f, at) => {
     if (f.type === 'char') return f.pointer ? `text(u32[(${at}) >> 2])` : `text(${at})`;
     const e = fieldEnum(f);
@@ -204,9 +209,12 @@ const readOne = (f, at) => {
     if (f.type === 'int32_t' && SWITCH.test(f.name)) return `i32[(${at}) >> 2] !== 0`;
     return { f: `f32[(${at}) >> 2]`, d: `f64[(${at}) >> 3]`, i: `i32[(${at}) >> 2]`, u: `u32[(${at}) >> 2]`, q: `wide(${at})` }[numbers[f.type][1]];
 };
-function reader(type) {
+const reader = (type) => {
     if (emittedReaders.has(type)) return;
     emittedReaders.add(type);
+    readerOf(type); // finds those of the records in it
+};
+function readerOf(type) {
     const r = records[type], parts = [];
     for (const f of r.fields) {
         if (hidden(f) || (f.pointer && f.type !== 'char') || laidOut(r, f)) continue;
@@ -214,7 +222,7 @@ function reader(type) {
         const [size] = layout(f.type);
         parts.push(`${camel(f.name)}: ${f.array && f.type !== 'char' ? `[${Array.from({ length: f.count }, (_, k) => readOne(f, at(k * size))).join(', ')}]` : readOne(f, at(0))}`);
     }
-    readers.push(`export const read${pascal(type)} = (a) => ({ ${parts.join(', ')} });`);
+    return `(a) => ({ ${parts.join(', ')} })`;
 }
 
 // ---- types ----------------------------------------------------------------------------------------------------------
@@ -301,7 +309,7 @@ function call(f) {
             const size = layout(p.type)[0], o = room(size);
             outs.push({ p, o });
             const r = records[p.type];
-            if (r && r.fields[0].name === 'struct_size') { table(p.type); before.push(`init(${tableName(p.type)}, ${o})`); }
+            if (r && r.fields[0].name === 'struct_size') { sized.add(p.type); before.push(`init(${tableName(p.type)}, ${o})`); }
             args.push(o);
             continue;
         }
@@ -406,8 +414,9 @@ if (process.argv[3] === '--missing') {
 }
 
 for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_history_def', 'fe_recorder_def', 'fe_player_def']) { table(t); inTypes.add(t); }
-for (const t of OUT_ONLY) table(t);
+for (const t of sized) if (!emittedTables.has(t)) tables.push(`export const ${tableName(t)} = [${records[t].size}, ${starter(t)}, {}];`);
 for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance', 'fe_history_frame', 'fe_player_info', 'fe_note', 'fe_divergence', 'fe_difference']) { reader(t); outTypes.add(t); }
+const readers = [...emittedReaders].map((type) => `export const read${pascal(type)} = ${isRare(type) ? `(a) => get(${tableName(type)}, a)` : readerOf(type)};`);
 let classesTs = '';
 for (const [name, methods] of Object.entries(classes)) {
     // a property's getter and setter stand together, else the types are wrong
@@ -427,7 +436,7 @@ const constants = Object.entries(enums).map(([name, words]) => `export const ${p
 const offsetOf = (type, name) => records[type].fields.find((f) => f.name === name).offset;
 const hitLayout = records.fe_hit.fields.filter((f) => !hidden(f)).map((f) => `${camel(f.name)}: ${f.offset / (f.type === 'double' || f.type === 'fe_dvec3' ? 8 : 4)}`);
 const js = `// Made from include/feather.h by bindings/js/generate.mjs
-import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, uint, big, handle, id, wide, word, bits, nameOf, vec3, dvec3, quat, getVec3, getDvec3, getQuat, put, init, make, maybe, over, W, text, listOut } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, uint, big, handle, id, wide, word, bits, nameOf, vec3, dvec3, quat, getVec3, getDvec3, getQuat, put, init, make, maybe, over, get, W, text, listOut } from './runtime.js';
 const i64of = (a) => BigInt.asIntN(64, u64[a >> 3]);
 export const made = {};
 export const HIT_BYTES = ${records.fe_hit.size}, VERTEX_BYTES = ${records.fe_draw_vertex.size}, INSTANCE_BYTES = ${records.fe_draw_instance.size};

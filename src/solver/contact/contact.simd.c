@@ -10,7 +10,11 @@
 
 #include <float.h>
 
+#if FE_WASM
+#define UNROLL // small, as FE_INLINE says
+#else
 #define UNROLL _Pragma("GCC unroll 8")
+#endif
 
 // a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise
 // make some points soft and others rigid, and a box that landed flat would rotate

@@ -2,18 +2,19 @@
 import * as THREE from 'three';
 
 // Its caps are moved apart by the shader, by as much as `ratio` says: half height over radius of the instance.
-function capsule() {
-    const g = new THREE.CapsuleGeometry(1, 2, 10, 28), p = g.attributes.position, side = new Float32Array(p.count);
+function capsule(around) {
+    const g = new THREE.CapsuleGeometry(1, 2, around / 4, around), p = g.attributes.position, side = new Float32Array(p.count);
     for (let k = 0; k < p.count; ++k) side[k] = Math.sign(p.getY(k)), p.setY(k, p.getY(k) - side[k]);
     g.setAttribute('side', new THREE.BufferAttribute(side, 1));
     return g;
 }
+const AROUND = 36, AROUND_MANY = 16, MANY = 1500; // edges of a circle; of one of many shapes
 const BUILT = {
     box: () => new THREE.BoxGeometry(2, 2, 2),
-    sphere: () => new THREE.SphereGeometry(1, 32, 20),
+    sphere: (around) => new THREE.SphereGeometry(1, around, around / 2),
     capsule,
-    cylinder: () => new THREE.CylinderGeometry(1, 1, 2, 36),
-    cone: () => new THREE.ConeGeometry(1, 2, 36),
+    cylinder: (around) => new THREE.CylinderGeometry(1, 1, 2, around),
+    cone: (around) => new THREE.ConeGeometry(1, 2, around),
     plane: () => new THREE.PlaneGeometry(2, 2).rotateX(-Math.PI / 2),
 };
 export const isBuilt = (type) => type in BUILT;
@@ -50,9 +51,9 @@ function ofDrawn(world, shape, body, place) {
     return ofTriangles(new Float32Array(out));
 }
 
-// The mesh of an instance. `place`: { origin, position, rotation, scale }
-export function formOf(world, { type, asset, shape, body }, place) {
-    if (isBuilt(type)) return BUILT[type]();
+// The mesh of an instance, one of `count`. `place`: { origin, position, rotation, scale }
+export function formOf(world, { type, asset, shape, body, count }, place) {
+    if (isBuilt(type)) return BUILT[type](count > MANY ? AROUND_MANY : AROUND);
     if (type === 'hull') return ofHull(world.store.asset(asset));
     return ofDrawn(world, shape, body, place);
 }

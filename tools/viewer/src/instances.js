@@ -118,7 +118,7 @@ export class Instances {
     #form(world, origin, k, type) {
         const p = this.now, i = FLOATS * k, place = { origin, position: new THREE.Vector3(p[i], p[i + 1], p[i + 2]),
             rotation: new THREE.Quaternion(p[i + 3], p[i + 4], p[i + 5], p[i + 6]), scale: new THREE.Vector3(p[i + 7], p[i + 8], p[i + 9]) };
-        return formOf(world, { type, asset: this.handleAt(k, 4), shape: this.handleAt(k, 0), body: this.bodyAt(k) }, place);
+        return formOf(world, { type, asset: this.handleAt(k, 4), shape: this.handleAt(k, 0), body: this.bodyAt(k), count: this.count }, place);
     }
     handleAt(k, j) { return this.ids[7 * k + j] + this.ids[7 * k + j + 1] * 4294967296; }
     bodyAt(k) { return this.handleAt(k, 2); }

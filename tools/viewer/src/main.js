@@ -19,6 +19,7 @@ import * as load from './load.js';
 import * as keys from './keys.js';
 
 const $ = (id) => document.getElementById(id);
+const BEHIND = 1; // s behind what comes live, beyond which it goes there at once
 const PHONE = 760; // pixels, below which panels lie over the view
 const BUDGET = 12; // ms of a frame that steps may take; a world too heavy for that is shown slower
 const PANELS = 90; // ms between two updates of text while it plays
@@ -71,7 +72,7 @@ class App {
     begin(name, isLive = false) {
         this.taken.end(), this.other.end(), this.playback?.destroy();
         const recording = (this.recording = new Recording()), playback = (this.playback = new Playback(recording));
-        this.maker = null, this.expected = 0, this.isFollowingEnd = isLive, this.growing = true, this.fresh = true;
+        this.maker = null, this.expected = 0, this.isSocket = this.isFollowingEnd = isLive, this.growing = true, this.fresh = true;
         this.notes = [], this.names.clear(), this.timeline.marks = [], this.pins = [], this.following = null, this.fileName = name;
         this.pick(null), this.instances.clear(), this.view.origin = [0, 0, 0];
         this.scanner.clear(), this.owed = 0, this.playing = true;
@@ -125,6 +126,7 @@ class App {
             if (this.startStep !== undefined) this.pause(), this.seek(this.startStep), (this.startStep = undefined);
         }
         scanner.feed(bytes);
+        if (this.isFollowingEnd && this.playing && playback.last - playback.step > BEHIND / playback.dt) playback.seek(playback.last);
         this.#notes();
         this.timeline.draw(), this.plots.draw();
     }
@@ -183,7 +185,11 @@ class App {
         this.pause();
         return this.seek((this.goal ?? this.step) + n);
     }
-    seek(step) { if (!this.live && this.playback) this.playback.seek(step), (this.owed = 0); }
+    seek(step) {
+        if (this.live || !this.playback) return;
+        this.isFollowingEnd = this.isSocket && step >= this.last;
+        this.playback.seek(step), this.owed = 0;
+    }
 
     // At once, however long it takes: for scripts
     jump(step) {
@@ -350,7 +356,7 @@ class App {
         for (const body of this.#bodies()) box.union(this.instances.bounds(body));
         const all = this.instances.bounds();
         this.view.range = Math.max(all.getSize(new THREE.Vector3()).length() / 2, 1);
-        this.view.frame(box.isEmpty() ? all : box, box.isEmpty() ? 0.8 : 2.2);
+        this.view.frame(box.isEmpty() ? all : box, box.isEmpty() ? 0.95 : 2.2);
     }
     follow() { this.following = this.following || !this.picked?.body ? null : this.picked.body, this.inspector.show(); }
     #pointer() {

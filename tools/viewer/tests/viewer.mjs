@@ -1,7 +1,9 @@
 // viewer.mjs - the page shows what the library says: recordings of case.c, dropped, scrubbed, picked, cut, compared.
 import test, { before, after } from 'node:test';
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync, appendFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { openBrowser, openPage, drop, scanned } from './page.mjs';
 
@@ -113,6 +115,39 @@ test('the two first differ where C says it', async () => {
     await page.evaluate('viewer.other.end()');
 });
 
+test('the same world goes on beside itself with twice the substeps, from the step where one asks', async () => {
+    const found = await page.evaluate(({ pendulum }) => {
+        const at = () => viewer.other.world.body(Number(pendulum)).position, own = () => viewer.world.body(Number(pendulum)).position;
+        viewer.jump(57), viewer.other.settings();
+        const start = [at(), own(), viewer.world.substeps, viewer.other.world.substeps];
+        viewer.jump(100);
+        const later = [at(), own()];
+        viewer.jump(60); // before it: made anew there
+        const again = [at(), own()];
+        viewer.other.end();
+        return { start, later, again };
+    }, said);
+    assert.deepEqual(found.start[0], found.start[1]);
+    assert.equal(found.start[3], 2 * found.start[2]);
+    for (const [there, here] of [found.later, found.again]) assert.ok(Math.abs(there.y - here.y) < 0.05, `${there.y}, ${here.y}`); // both swing
+    assert.notEqual(found.later[0].y, found.start[0].y);
+});
+
+test('a body is copied as calls, a place as a link', async () => {
+    const [c, python, link] = await page.evaluate(({ pendulum }) => {
+        viewer.jump(57), viewer.pick({ body: Number(pendulum) });
+        const all = [], { copy } = viewer;
+        viewer.copy = (text) => all.push(text);
+        for (const what of ['c', 'python']) document.querySelector(`[data-do=${what}]`).click();
+        viewer.copy = copy;
+        return [...all, viewer.link()];
+    }, said);
+    const y = said.steps[2].pendulum[1];
+    assert.match(c, /fe_geometry_capsule\(&form, 0\.6\d*f, 0\.3\d*f\)/);
+    for (const text of [c, python]) assert.ok(text.includes(String(y)), text);
+    assert.match(link, /step=57&camera=(-?\d+\.\d{3}_){5}-?\d+\.\d{3}$/);
+});
+
 test('a packed recording plays as the plain one', async () => {
     await drop(page, [{ name: 'packed.feather', bytes: read('packed.feather') }]);
     for (const wanted of said.steps) same(await valuesAt(wanted.step), wanted);
@@ -183,6 +218,32 @@ test('?url= opens what a server has, and says what it lacks', async () => {
     await none.waitForFunction('!document.getElementById("banner").hidden');
     assert.match(await none.innerText('#banner-text'), /404/);
     await none.close(), server.close(), server.closeAllConnections();
+});
+
+test('a file that grows is shown live, from its start or from its last keyframe', async () => {
+    const file = `${files}/growing.feather`, half = said.cut;
+    writeFileSync(file, a.subarray(0, half));
+    const live = spawn('python3', ['tools/feather-live', file, '--port', '0', '--page', process.env.VIEWER_PAGE], { stdio: ['ignore', 'pipe', 'inherit'] });
+    try {
+        const [line] = await once(live.stdout, 'data'), host = String(line).match(/http:[^ ]*/)[0];
+        const shown = await openPage(browser, host);
+        await shown.waitForFunction(`viewer.playback?.ready && viewer.scanner.ended && viewer.last === ${said.cutStep}`);
+        assert.equal(await shown.evaluate('viewer.isEndKnown'), false);
+        await shown.waitForFunction(`viewer.step === ${said.cutStep}`); // it is there, and does not play what was
+        appendFileSync(file, a.subarray(half));
+        await shown.waitForFunction(`viewer.last === ${said.last} && viewer.scanner.ended`);
+        for (const wanted of said.steps) {
+            assert.equal(await shown.evaluate((step) => (viewer.jump(step), viewer.world.hash), wanted.step), wanted.hash);
+        }
+        const late = await openPage(browser, `${host}last`);
+        await late.waitForFunction('viewer.playback?.ready && viewer.scanner.ended');
+        assert.equal(await late.evaluate(`viewer.jump(${said.last}), viewer.world.hash`), said.steps.at(-1).hash);
+        assert.ok((await late.evaluate('viewer.first')) > said.last / 2);
+        assert.deepEqual([...shown.errors, ...late.errors], []);
+        await shown.close(), await late.close();
+    } finally {
+        live.kill();
+    }
 });
 
 test('on a phone the panels are sheets, and nothing lies outside the page', async () => {
