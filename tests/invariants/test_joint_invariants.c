@@ -320,7 +320,7 @@ static int sleeps(const scene *s, const ragdoll *r)
 // some mm/s, and it stays awake.
 static void ragdolls_thrown_into_a_corner_come_together_again(void **state)
 {
-    enum { MOST_JAMMED = THROWS / 50 };
+    enum { MOST_JAMMED = THROWS / 100 };
     (void)state;
     int jammed = 0;
     for (uint64_t k = 0; k < THROWS; ++k) {

@@ -420,13 +420,17 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
 }
 
 // By how much the load rose: since the last substep, or by this relax pass. For a touch is stopped in two substeps: the
-// first leaves it the speed that its gap allows, the next takes that, and carries the load of the first. What has
+// first leaves it the speed that its gap allows, the next takes that, and carries the load of the first. What bears for
+// longer is pressed, not struck: a joint that quarrels with it may raise its load in every relax pass. What has
 // restitution bounces after relax.
 FE_INLINE wide NAMED(rise_of)(const ROW *row, wide gain, int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
-    wide since = NAMED(load_of)(row) - row->load, most = w_max(gain, since);
-    return kind & FE__ROW_SPECIAL ? w_choose(w_greater(x->restitution, w_set(0.0f)), since, most) : most;
+    wide since = NAMED(load_of)(row) - row->load, before = row->total[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) before = before + row->total[i];
+    wide_mask lasts = w_greater(before, row->load);
+    if (kind & FE__ROW_SPECIAL) lasts = w_or(lasts, w_greater(x->restitution, w_set(0.0f)));
+    return w_choose(lasts, since, w_max(gain, since));
 }
 
 FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response)
@@ -572,9 +576,9 @@ FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact_arrays *of, const f
 FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, wide gain, const fe__step_constants *c,
                                 int kind)
 {
-    UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
     wide load = NAMED(load_of)(row), response = p->a.inverse_mass + p->b.inverse_mass;
-    wide rise = NAMED(rise_of)(row, gain, kind);
+    wide rise = NAMED(rise_of)(row, gain, kind); // with the totals of before
+    UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
     wide_mask rose = NAMED(is_impact)(load, rise, response);
     if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row, c->threshold)));
     if (w_any(rose)) NAMED(leave_friction)(row, s, load, rise, rose, kind);
