@@ -11,6 +11,7 @@
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
+#   make viewer     build/viewer.html, a page that plays recordings; make test-viewer: its tests
 #   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
 #   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
@@ -43,6 +44,7 @@ RUN = $(if $(V),,@echo '  $@';)
 
 OPT ?= -O2
 SIMD_OPT ?= -O3
+COLD_OPT ?=
 # Constants are enumerators here, and count in floats too; clang 19 would warn of each.
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wno-enum-float-conversion $(if $(filter 1,$(WERROR)),-Werror)
 CXX_WARNINGS := -Wall -Wextra $(if $(filter 1,$(WERROR)),-Werror)
@@ -121,7 +123,7 @@ define stamp
 @echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
 $(BUILD)/flags: FORCE
-	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
+	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT)$(COLD_OPT:%= %) $(STRICT) $(LINK_FLAGS)))
 $(BUILD)/objects: FORCE
 	$(call stamp,$(OBJECTS:$(BUILD)/%=%))
 
@@ -130,6 +132,9 @@ $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	$(RUN)$(CC) $(C_FLAGS) $(HOT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
 # small matrices, whose loops are to be unrolled
 $(BUILD)/obj/solver/tree/%.o: HOT := $(SIMD_OPT)
+# rooms that no step enters
+COLD := api record replay state draw store collision/hull_build collision/mesh_build collision/cooked collision/surface
+$(COLD:%=$(BUILD)/obj/%/%.o): HOT := $(COLD_OPT)
 
 # Once per SIMD set. SIMD_OPT follows CFLAGS: a distribution's -O2 must not slow the kernels down.
 define simd_rule
@@ -297,7 +302,7 @@ docs:
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
-include $(wildcard bindings/*/rules.mk)
+include $(wildcard bindings/*/rules.mk) tools/viewer/rules.mk
 
 # the scene that every language plays; what calls cost in C
 $(BUILD)/feather-scenario $(BUILD)/feather-cost: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)

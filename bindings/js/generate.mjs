@@ -15,11 +15,11 @@ fe_heightfield_get_heights fe_mesh_set_materials fe_world_raycast_many fe_world_
 fe_world_get_transforms fe_world_set_transforms fe_world_get_transforms_f32 fe_world_get_velocities fe_world_set_velocities
 fe_world_add_forces fe_world_hash fe_world_draw_lines fe_world_draw_triangles fe_world_draw_points
 fe_world_draw_instances fe_history_create fe_history_destroy fe_history_keep fe_history_restore fe_history_get_frames
+fe_recorder_create fe_recorder_read fe_recorder_note fe_recorder_destroy fe_player_create fe_player_feed fe_player_step
+fe_player_seek fe_player_get_world fe_player_release fe_player_get_info fe_player_get_notes fe_player_get_divergence
+fe_player_destroy fe_snapshot_compare
 fe_version fe_last_error fe_result_name`.split(/\s+/);
-const recordings = [...header.matchAll(/\b(fe_(?:recorder|player|divergence)_\w+)\(/g)];
 export const LEFT_OUT = {
-    ...Object.fromEntries(recordings.map(([, name]) => [name, 'recordings are for hosts in C'])),
-    fe_snapshot_compare: 'why two machines differ is looked for in C, Python, C# or Lua', fe_difference_init: 'of fe_snapshot_compare',
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',
@@ -48,12 +48,12 @@ for (const [, name, body] of header.matchAll(/typedef enum (fe_\w+) \{([\s\S]*?)
         enumOf[value] = name;
     }
 }
-const BITS = new Set(['fe_axis', 'fe_shape_events', 'fe_mesh_flags', 'fe_draw_flags', 'fe_query_flags', 'fe_hit_flags', 'fe_mesh_edge_flags', 'fe_save']);
+const BITS = new Set(['fe_axis', 'fe_shape_events', 'fe_mesh_flags', 'fe_draw_flags', 'fe_query_flags', 'fe_hit_flags', 'fe_mesh_edge_flags', 'fe_save', 'fe_record_flags']);
 const handles = new Set(['fe_handle', 'fe_body', 'fe_shape', 'fe_joint', 'fe_asset']);
 const numbers = { float: [4, 'f'], double: [8, 'd'], int32_t: [4, 'i'], uint32_t: [4, 'u'], uint64_t: [8, 'q'], int64_t: [8, 'q'], uint8_t: [1, 'b'], uint16_t: [2, 's'] };
 const vectors = { fe_vec3: 'vec3', fe_dvec3: 'dvec3', fe_quat: 'quat' };
 // switches, which are true and false here
-const SWITCH = /^(out_)?(enabled|awake|trigger|bullet|one_way|pair_filter|own_material|collide_connected|kept|foreign|filter|new_number|ignore|ignored|allowed|is_trigger|sleep_allowed|spread|\w+_enabled)$/;
+const SWITCH = /^(out_)?(enabled|awake|trigger|bullet|one_way|pair_filter|own_material|collide_connected|kept|foreign|filter|new_number|ignore|ignored|allowed|is_trigger|has_diverged|sleep_allowed|spread|\w+_enabled)$/;
 const enumIn = (text) => {
     for (const [w] of text.matchAll(/\b(fe_\w+|FE_\w+)\b/g)) {
         if (enums[w]) return w;
@@ -155,18 +155,20 @@ const tableName = (type) => '$' + short(type);
 const writer = (r, f) => {
     const e = fieldEnum(f);
     const one = e ? (BITS.has(e) ? ['W.bits', pascal(e)] : ['W.word', pascal(e)])
-        : handles.has(f.type) ? ['W.h'] : vectors[f.type] ? ['W.' + vectors[f.type]] : records[f.type] ? ['W.record', tableName(f.type)] : ['W.' + numbers[f.type][1]];
+        : handles.has(f.type) ? ['W.h'] : vectors[f.type] ? ['W.' + vectors[f.type]] : records[f.type] ? ['W.record', tableName(f.type)] : f.type === 'int32_t' && SWITCH.test(f.name) ? ['W.flag'] : ['W.' + numbers[f.type][1]];
     return f.array ? ['W.array', `[${one[0]}, ${layout(f.type)[0]}, ${f.count}, ${one[1] ?? 0}]`] : one;
 };
 const find = (r, path) => path.split('.').reduce(({ r: at, offset }, name) => {
     const f = at.fields.find((g) => g.name === name);
     return { r: records[f.type], f, offset: offset + f.offset };
 }, { r, offset: 0 });
+// Only the library writes these, unless a table of their fields is asked for, too
+const sized = new Set(['fe_snapshot_info', 'fe_player_info', 'fe_divergence', 'fe_difference']);
 const emittedTables = new Set(), tables = [];
 function table(type) {
     if (emittedTables.has(type)) return;
     emittedTables.add(type);
-    const r = records[type], fields = [];
+    const r = records[type], fields = [], aliases = [];
     for (const f of r.fields) {
         if (hidden(f) || laidOut(r, f)) continue;
         const list = LISTS[`${type}.${f.name}`];
@@ -184,14 +186,20 @@ function table(type) {
     }
     for (const [name, path] of Object.entries(ALIASES[type] ?? {})) {
         const { r: to, f, offset } = find(r, path);
-        fields.push(`${name}: [${offset}, ${name === 'friction' ? 'W.frictions' : writer(to ?? r, f)[0]}]`);
+        aliases.push(`${name}: [${offset}, ${name === 'friction' ? 'W.frictions' : writer(to ?? r, f)[0]}]`);
     }
-    const has = functions.some((g) => g.name === `${type}_init`);
-    const start = has ? `(a, n) => x.${type}_init(a, n)` : type === 'fe_transform' ? '(a) => { f32[(a + 36) >> 2] = 1; }' : type === 'fe_path' ? '(a) => { f32[(a + 36) >> 2] = 1; }' : type === 'fe_frame' ? '(a) => { f32[(a + 24) >> 2] = 1; }' : '0';
-    tables.push(`export const ${tableName(type)} = [${r.size}, ${start}, { ${fields.join(', ')} }];`);
+    tables.push(`export const ${tableName(type)} = [${r.size}, ${starter(type)}, { ${fields.join(', ')} }${aliases.length ? `, { ${aliases.join(', ')} }` : ''}];`);
 }
-const emittedReaders = new Set(), readers = [];
+function starter(type) {
+    if (functions.some((g) => g.name === `${type}_init`)) return `(a, n) => x.${type}_init(a, n)`;
+    const ones = { fe_transform: 36, fe_path: 36, fe_frame: 24 }[type]; // where the rotation's w lies
+    return ones ? `(a) => { f32[(a + ${ones}) >> 2] = 1; }` : '0';
+}
+// A reader of its own is fast; records that have a table, and are read once in a while, are read by that
+const emittedReaders = new Set(), OFTEN = new Set(['fe_transform', 'fe_bounds']);
+const isRare = (type) => emittedTables.has(type) && !OFTEN.has(type) && !records[type].fields.some((f) => f.type === 'int64_t' || f.type === 'char');
 const readOne = (f, at) => {
+    if (f.type === 'char') return f.pointer ? `text(u32[(${at}) >> 2])` : `text(${at})`;
     const e = fieldEnum(f);
     if (e && !BITS.has(e)) return `nameOf(${pascal(e)}, i32[(${at}) >> 2])`;
     if (handles.has(f.type)) return `id(${at})`;
@@ -201,23 +209,27 @@ const readOne = (f, at) => {
     if (f.type === 'int32_t' && SWITCH.test(f.name)) return `i32[(${at}) >> 2] !== 0`;
     return { f: `f32[(${at}) >> 2]`, d: `f64[(${at}) >> 3]`, i: `i32[(${at}) >> 2]`, u: `u32[(${at}) >> 2]`, q: `wide(${at})` }[numbers[f.type][1]];
 };
-function reader(type) {
+const reader = (type) => {
     if (emittedReaders.has(type)) return;
     emittedReaders.add(type);
+    readerOf(type); // finds those of the records in it
+};
+function readerOf(type) {
     const r = records[type], parts = [];
     for (const f of r.fields) {
-        if (hidden(f) || f.pointer || laidOut(r, f)) continue;
+        if (hidden(f) || (f.pointer && f.type !== 'char') || laidOut(r, f)) continue;
         const at = (k) => (f.offset + k ? `a + ${f.offset + k}` : 'a');
         const [size] = layout(f.type);
-        parts.push(`${camel(f.name)}: ${f.array ? `[${Array.from({ length: f.count }, (_, k) => readOne(f, at(k * size))).join(', ')}]` : readOne(f, at(0))}`);
+        parts.push(`${camel(f.name)}: ${f.array && f.type !== 'char' ? `[${Array.from({ length: f.count }, (_, k) => readOne(f, at(k * size))).join(', ')}]` : readOne(f, at(0))}`);
     }
-    readers.push(`export const read${pascal(type)} = (a) => ({ ${parts.join(', ')} });`);
+    return `(a) => ({ ${parts.join(', ')} })`;
 }
 
 // ---- types ----------------------------------------------------------------------------------------------------------
 
 const outTypes = new Set(), inTypes = new Set();
 const scalarType = (f, input) => {
+    if (f.type === 'char') return 'string';
     const e = fieldEnum(f);
     if (e) return BITS.has(e) ? (input ? `${pascal(e)} | readonly ${pascal(e)}[] | number` : 'number') : pascal(e);
     if (handles.has(f.type)) return input ? `Handle<${({ fe_body: 'Body', fe_shape: 'Shape', fe_joint: 'Joint', fe_asset: 'Asset' })[f.type] ?? 'Body'}> | null` : 'number';
@@ -233,9 +245,9 @@ function interfaceOf(type, input) {
     let out = doc(r.doc) + `export interface ${pascal(type)}${input ? 'Options' : ''} {\n`;
     for (const f of r.fields) {
         const list = LISTS[`${type}.${f.name}`];
-        if (hidden(f) || laidOut(r, f) || (f.pointer && !(list && input))) continue;
+        if (hidden(f) || laidOut(r, f) || (f.pointer && f.type !== 'char' && !(list && input))) continue;
         let t = list ? (records[list[0]] ? `readonly ${scalarType({ type: list[0], doc: '' }, true)}[]` : list[0] === 'h' ? 'ArrayLike<number | Body>' : 'ArrayLike<number>') : scalarType(f, input);
-        if (f.array) t = input ? `readonly (${t})[]` : `[${Array(f.count).fill(t).join(', ')}]`;
+        if (f.array && f.type !== 'char') t = input ? `readonly (${t})[]` : `[${Array(f.count).fill(t).join(', ')}]`;
         out += doc(f.doc, '    ') + `    ${camel(f.name)}${input ? '?' : ''}: ${t};\n`;
     }
     if (input) for (const [name, path] of Object.entries(ALIASES[type] ?? {})) {
@@ -276,7 +288,7 @@ function call(f) {
     const room = (size) => { const o = scratch; scratch += Math.ceil(size / 16) * 16; return o ? `scratch + ${o}` : 'scratch'; };
     const first = params.shift();
     if (!first || !first.pointer || !['fe_world', 'fe_store'].includes(first.type)) return false;
-    args.push(first.type === 'fe_world' ? 'this._w()' : 'this._s()');
+    args.push(first.type === 'fe_store' ? 'this._s()' : first.const ? 'this._w()' : 'this._w(1)');
     if (selfHandle[cls] && params[0] && handles.has(params[0].type) && !params[0].pointer) params.shift(), args.push('this._h');
     const isAt = base.startsWith('add_') && f.name.endsWith('_def_at');
     let definition;
@@ -297,7 +309,7 @@ function call(f) {
             const size = layout(p.type)[0], o = room(size);
             outs.push({ p, o });
             const r = records[p.type];
-            if (r && r.fields[0].name === 'struct_size') { table(p.type); before.push(`init(${tableName(p.type)}, ${o})`); }
+            if (r && r.fields[0].name === 'struct_size') { sized.add(p.type); before.push(`init(${tableName(p.type)}, ${o})`); }
             args.push(o);
             continue;
         }
@@ -342,7 +354,7 @@ function call(f) {
         const d = init(${tableName(definition)}, temp(${records[definition].size}));
         ok(${invoke});
         if (options !== undefined && options !== null) put(${tableName(definition)}, d, options, 'options');
-        return made.joint(this, x.fe_${type}_joint_create(this._w(), d, scratch));
+        return made.joint(this, x.fe_${type}_joint_create(this._w(1), d, scratch));
     }`;
         classes[cls].push({ name: camel(base), js, ts: `${camel(base)}(${[...types, `options?: ${pascal(definition)}Options | null`].join(', ')}): Joint;`, doc: text });
         return true;
@@ -393,7 +405,7 @@ for (const f of functions) {
     if (!call(f)) missing.push(f.name);
 }
 if (process.argv[3] === '--missing') {
-    const hand = readFileSync(new URL('src/hand.js', import.meta.url), 'utf8') + readFileSync(new URL('src/runtime.js', import.meta.url), 'utf8');
+    const hand = ['hand', 'player', 'recorder', 'runtime'].map((name) => readFileSync(new URL(`src/${name}.js`, import.meta.url), 'utf8')).join('');
     for (const name of HAND) if (!hand.includes(`x.${name}(`)) missing.push(name);
     const known = new Set(functions.map((f) => f.name));
     for (const name of [...HAND, ...Object.keys(LEFT_OUT)]) if (!known.has(name)) missing.push(`${name}, which the header lacks`);
@@ -401,8 +413,10 @@ if (process.argv[3] === '--missing') {
     process.exit(missing.length ? 1 : 0);
 }
 
-for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_snapshot_info', 'fe_history_def']) { table(t); inTypes.add(t); }
-for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance', 'fe_history_frame']) { reader(t); outTypes.add(t); }
+for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_history_def', 'fe_recorder_def', 'fe_player_def']) { table(t); inTypes.add(t); }
+for (const t of sized) if (!emittedTables.has(t)) tables.push(`export const ${tableName(t)} = [${records[t].size}, ${starter(t)}, {}];`);
+for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance', 'fe_history_frame', 'fe_player_info', 'fe_note', 'fe_divergence', 'fe_difference']) { reader(t); outTypes.add(t); }
+const readers = [...emittedReaders].map((type) => `export const read${pascal(type)} = ${isRare(type) ? `(a) => get(${tableName(type)}, a)` : readerOf(type)};`);
 let classesTs = '';
 for (const [name, methods] of Object.entries(classes)) {
     // a property's getter and setter stand together, else the types are wrong
@@ -422,11 +436,12 @@ const constants = Object.entries(enums).map(([name, words]) => `export const ${p
 const offsetOf = (type, name) => records[type].fields.find((f) => f.name === name).offset;
 const hitLayout = records.fe_hit.fields.filter((f) => !hidden(f)).map((f) => `${camel(f.name)}: ${f.offset / (f.type === 'double' || f.type === 'fe_dvec3' ? 8 : 4)}`);
 const js = `// Made from include/feather.h by bindings/js/generate.mjs
-import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, uint, big, handle, id, wide, word, bits, nameOf, vec3, dvec3, quat, getVec3, getDvec3, getQuat, put, init, make, maybe, over, W, listOut } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, uint, big, handle, id, wide, word, bits, nameOf, vec3, dvec3, quat, getVec3, getDvec3, getQuat, put, init, make, maybe, over, get, W, text, listOut } from './runtime.js';
 const i64of = (a) => BigInt.asIntN(64, u64[a >> 3]);
 export const made = {};
 export const HIT_BYTES = ${records.fe_hit.size}, VERTEX_BYTES = ${records.fe_draw_vertex.size}, INSTANCE_BYTES = ${records.fe_draw_instance.size};
-export const AT = { store: ${offsetOf('fe_world_def', 'store')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')} };
+export const AT = { store: ${offsetOf('fe_world_def', 'store')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, playerStore: ${offsetOf('fe_player_def', 'store')} };
+export const NOTE_BYTES = ${records.fe_note.size};
 export const HitLayout = { ${hitLayout.join(', ')} };
 ${constants.join('\n')}
 ${tables.join('\n')}

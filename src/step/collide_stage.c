@@ -55,10 +55,10 @@ static void note_result(fe__step *step, int32_t pair, int32_t changes_sides)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
-// ---- with heightfields: patches follow their heads, on the head's thread -------------------------------------------
-static void collide_with_patches(fe__step *step, int32_t head)
+// A heightfield's and a mesh's patches follow their heads, on the head's thread
+static void collide_pair(fe__step *step, int32_t head)
 {
-    fe_world *w = step->world;
+    const fe_world *w = step->world;
     if (w->pairs[head].next_patch < 0) {
         note_result(step, head, fe__collide_pair(step, head));
         return;
@@ -67,6 +67,20 @@ static void collide_with_patches(fe__step *step, int32_t head)
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair, 0);
 }
 
+static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
+{
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3, HULLS_AHEAD = 2, OF_HULLS_AHEAD = 1 };
+    const fe_world *w = step->world;
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fe__fetch_own(w, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(w, pairs[i + NAMED_AHEAD]);
+        if (i >= -HULLS_AHEAD && i + HULLS_AHEAD < count) fe__fetch_hulls(w, pairs[i + HULLS_AHEAD]);
+        if (i >= -OF_HULLS_AHEAD && i + OF_HULLS_AHEAD < count) fe__fetch_of_hulls(w, pairs[i + OF_HULLS_AHEAD]);
+        if (i >= 0) collide_pair(step, pairs[i]);
+    }
+}
+
+// ---- with heightfields and meshes ----------------------------------------------------------------------------------
 // up to PAIRS_IN_BLOCK of the awake pairs
 static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
 {
@@ -92,7 +106,7 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
     if (patch_count)
         w->kernels->recycle(w->contacts, w->points, w->bodies, patches, patch_count, step->dt, step->fall, verdicts,
                             slack);
-    for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
+    collide_each(step, heads, again);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
 
@@ -134,17 +148,6 @@ static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t
         count += list_busy(step->world->awake_pairs + *at, stretch, out_pairs + count);
     }
     return count;
-}
-
-static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
-{
-    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
-    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
-        if (i + OWN_AHEAD < count) fe__fetch_own(step->world, pairs[i + OWN_AHEAD]);
-        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(step->world, pairs[i + NAMED_AHEAD]);
-        if (i < 0) continue;
-        note_result(step, pairs[i], fe__collide_pair(step, pairs[i]));
-    }
 }
 
 // Pairs whose deferral ends: recycling has had its say when they were found, and most of them meet, see due.c

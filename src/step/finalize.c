@@ -4,6 +4,7 @@
 #define FE_W 4
 #include "step/finalize.h"
 
+#include "collision/form/hull_form.h"
 #include "core/simd.h"
 #include "solver/graph/graph.h"
 #include "solver/motion_check.h"
@@ -135,6 +136,22 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
+static int32_t first_shape_of(const fe_world *w, int32_t i)
+{
+    return i < w->awake_body_count ? w->bodies[w->awake_bodies[i]].first_shape : -1;
+}
+
+// A hull is somewhere else: what of its shape names it, then its record, then its vertices
+FE_FETCHES fetch_hulls(const fe_world *w, int32_t i)
+{
+    enum { SHAPES_AHEAD = 8, HULLS_AHEAD = 4, VERTICES_AHEAD = 2 };
+    int32_t soon = first_shape_of(w, i + SHAPES_AHEAD), next = first_shape_of(w, i + HULLS_AHEAD),
+            now = first_shape_of(w, i + VERTICES_AHEAD);
+    if (soon >= 0) fe__fetch(w->shapes + soon, (unsigned)offsetof(fe__shape, local_position));
+    if (next >= 0) fe__hull_form_fetch(&w->shapes[next].form);
+    if (now >= 0) fe__hull_form_fetch_vertices(&w->shapes[now].form);
+}
+
 // three numbers of a quad, whose fourth is the body's own
 static void take_flushed(float *out, const float *in)
 {
@@ -165,6 +182,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
         fetch_box(w, i + AHEAD);
+        fetch_hulls(w, i);
         int32_t index = w->awake_bodies[i];
         fe__body *body = w->bodies + index;
         fe__odometer *odometer = w->odometers + index;

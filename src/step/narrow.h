@@ -1,6 +1,7 @@
 // narrow.h - what the narrow phases of plain pairs (narrow.c) and of pairs with a heightfield (narrow_field.c) share.
 #ifndef FE_STEP_NARROW_H
 #define FE_STEP_NARROW_H
+#include "collision/form/hull_form.h"
 #include "step/view.h"
 #include "world/step_scratch.h"
 
@@ -40,6 +41,7 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
     fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
     fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
+    if (p->next_patch >= 0) fe__fetch_own(w, p->next_patch);
     if (m->points) {
         fe__fetch(w->points + m->points, sizeof *w->points);
         fe__fetch(w->features + m->points, sizeof *w->features);
@@ -50,6 +52,27 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     fe__fetch(w->odometers + p->body_a, sizeof *w->odometers);
     fe__fetch(w->odometers + p->body_b, sizeof *w->odometers);
     if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);
+}
+
+// Where the records that it names are there: hulls; the next but one of the patches, and the points of the next
+FE_FETCHES fe__fetch_hulls(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fe__hull_form_fetch(&w->shapes[p->shape_a].form);
+    fe__hull_form_fetch(&w->shapes[p->shape_b].form);
+    if (p->next_patch < 0) return;
+    fe__fetch(w->points + w->contacts[p->next_patch].points, sizeof *w->points);
+    int32_t second = w->pairs[p->next_patch].next_patch;
+    if (second >= 0) fe__fetch_own(w, second);
+}
+
+// Where the hulls are there: their arrays
+FE_FETCHES fe__fetch_of_hulls(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    const fe__form *a = &w->shapes[p->shape_a].form, *b = &w->shapes[p->shape_b].form;
+    fe__hull_form_fetch_vertices(a), fe__hull_form_fetch_faces(a);
+    fe__hull_form_fetch_vertices(b), fe__hull_form_fetch_faces(b);
 }
 
 // how far the pair can close in the step, m

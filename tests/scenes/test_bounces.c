@@ -13,6 +13,7 @@ typedef struct blow {
 
 static blow ball(void) { return (blow){sphere(0.5), 0.5, UNTURNED, 1}; }
 static blow flat_box(void) { return (blow){box(0.5, 0.25, 0.4), 0.25, UNTURNED, 0}; }
+static blow cube(void) { return (blow){box(0.5, 0.5, 0.5), 0.5, UNTURNED, 0}; }
 static blow lying_capsule(void) { return (blow){capsule(0.4, 0.2), 0.2, turned(v3(0, 0, 1), 90 * DEGREES), 0}; }
 static blow rolling_capsule(void) { return (blow){capsule(0.4, 0.2), 0.2, turned(v3(1, 0, 0), 90 * DEGREES), 1}; }
 
@@ -68,15 +69,21 @@ static void ball_that_slides_loses_mu_of_its_bounce(void **state)
 static void ball_that_sticks_rolls_on(void **state) { loses_what_friction_takes(state, ball(), 0.5, all, 4); }
 static void flat_box_that_slides_loses_mu_of_its_bounce(void **state)
 {
-    loses_what_friction_takes(state, flat_box(), 20, all + 1, 3);
+    loses_what_friction_takes(state, flat_box(), 20, all, 4);
 }
-static void flat_box_that_bounces_sticks(void **state)
+static void flat_box_that_lands_sticks(void **state) { loses_what_friction_takes(state, flat_box(), 0.5, all, 4); }
+static void cube_that_slides_loses_mu_of_its_bounce(void **state)
 {
-    loses_what_friction_takes(state, flat_box(), 0.5, all + 1, 3);
+    loses_what_friction_takes(state, cube(), 20, all, 4);
 }
+static void cube_that_lands_sticks(void **state) { loses_what_friction_takes(state, cube(), 0.5, all, 1); }
 static void lying_capsule_that_slides_loses_mu_of_its_bounce(void **state)
 {
-    loses_what_friction_takes(state, lying_capsule(), 20, all + 1, 3);
+    loses_what_friction_takes(state, lying_capsule(), 20, all, 4);
+}
+static void lying_capsule_that_lands_sticks(void **state)
+{
+    loses_what_friction_takes(state, lying_capsule(), 0.5, all, 4);
 }
 static void rolling_capsule_that_slides_loses_mu_of_its_bounce(void **state)
 {
@@ -122,9 +129,14 @@ int main(void)
         TEST_WITH(ball_that_slides_loses_mu_of_its_bounce, ", askew", askew),
         TEST(ball_that_sticks_rolls_on),
         TEST(flat_box_that_slides_loses_mu_of_its_bounce),
-        TEST(flat_box_that_bounces_sticks),
+        WITH_4_SUBSTEPS(flat_box_that_slides_loses_mu_of_its_bounce),
+        TEST(flat_box_that_lands_sticks),
+        TEST(cube_that_slides_loses_mu_of_its_bounce),
+        WITH_4_SUBSTEPS(cube_that_slides_loses_mu_of_its_bounce),
+        TEST(cube_that_lands_sticks),
         TEST(lying_capsule_that_slides_loses_mu_of_its_bounce),
         WITH_4_SUBSTEPS(lying_capsule_that_slides_loses_mu_of_its_bounce),
+        TEST(lying_capsule_that_lands_sticks),
         TEST(rolling_capsule_that_slides_loses_mu_of_its_bounce),
         WITH_4_SUBSTEPS(rolling_capsule_that_slides_loses_mu_of_its_bounce),
         TEST(rolling_capsule_that_sticks_rolls_on),

@@ -1,17 +1,18 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
-import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, FeatherError } from './runtime.js';
+import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, dead, free, dispose, FeatherError } from './runtime.js';
+import { Recorder } from './recorder.js';
 import * as api from './api.js';
-const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def } = api;
+const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $difference } = api;
 
-const dead = (what) => { throw new FeatherError('FE_ERROR_STALE', `the ${what} is destroyed`); };
-const free = new FinalizationRegistry((end) => end());
 // Stores that nobody holds any more but a world that nobody holds either, until that one is gone
 const orphans = new Set();
 const endWorld = (p) => {
     x.fe_world_destroy(p);
+    endOrphans();
+};
+export const endOrphans = () => {
     for (const store of orphans) if (x.fe_store_destroy(store) >= 0) orphans.delete(store);
 };
-const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 const wide = (at) => u64[at >> 3];
 
 // ---- memory that a world, or a list of bodies, keeps for its arrays ---------------------------------------------------
@@ -153,7 +154,7 @@ const part = (Calls) => class extends Calls {
         super();
         this.world = world, this.id = id, this._h = BigInt(id);
     }
-    _w() { return this.world._w(); }
+    _w(changes) { return this.world._w(changes); }
 };
 export class Body extends part(api.BodyCalls) {
     get position() { ok(x.fe_body_get_transform(this._w(), this._h, scratch)); return { x: f64[scratch >> 3], y: f64[(scratch >> 3) + 1], z: f64[(scratch >> 3) + 2] }; }
@@ -167,15 +168,15 @@ export class Body extends part(api.BodyCalls) {
     _move(position, rotation) {
         ok(x.fe_body_get_transform(this._w(), this._h, scratch));
         put($transform, scratch, position === undefined ? { rotation } : { position }, '');
-        ok(x.fe_body_set_transform(this._w(), this._h, scratch));
+        ok(x.fe_body_set_transform(this._w(1), this._h, scratch));
     }
-    destroy() { ok(x.fe_body_destroy(this._w(), this._h)); }
+    destroy() { ok(x.fe_body_destroy(this._w(1), this._h)); }
     // `geometry` is { type: 'box', halfExtents }, an asset, or what makes one
     createShape(geometry, options) {
         reset();
         const form = geometry instanceof Asset ? { type: geometry.type, asset: geometry } : geometry;
         const at = make($geometry, scratch + 16, form, 'geometry');
-        ok(x.fe_shape_create(this._w(), this._h, maybe($shape_def, scratch + 256, options, 'options'), at, scratch));
+        ok(x.fe_shape_create(this._w(1), this._h, maybe($shape_def, scratch + 256, options, 'options'), at, scratch));
         return new Shape(this.world, id(scratch));
     }
     addSphere(radius, options) { return this.createShape({ type: 'sphere', radius }, options); }
@@ -229,8 +230,8 @@ export class Bodies {
         if (n !== each * this.count) wrong(name, `an array of ${each * this.count}`, n);
         return at;
     }
-    setVelocities(values) { const at = this.#given(values, FLOATS_OF_MOTION, 'values'); ok(x.fe_world_set_velocities(this.world._w(), this.#handles.at, at, 0, this.count)); }
-    addForces(values) { const at = this.#given(values, FLOATS_OF_MOTION, 'values'); ok(x.fe_world_add_forces(this.world._w(), this.#handles.at, at, 0, this.count)); }
+    setVelocities(values) { const at = this.#given(values, FLOATS_OF_MOTION, 'values'); ok(x.fe_world_set_velocities(this.world._w(1), this.#handles.at, at, 0, this.count)); }
+    addForces(values) { const at = this.#given(values, FLOATS_OF_MOTION, 'values'); ok(x.fe_world_add_forces(this.world._w(1), this.#handles.at, at, 0, this.count)); }
     transforms() {
         reset();
         const at = temp(40 * this.count);
@@ -241,7 +242,7 @@ export class Bodies {
         reset();
         const [at, n] = listIn($transform, transforms, 'transforms');
         if (n !== this.count) wrong('transforms', `an array of ${this.count}`, n);
-        ok(x.fe_world_set_transforms(this.world._w(), this.#handles.at, at, 0, n));
+        ok(x.fe_world_set_transforms(this.world._w(1), this.#handles.at, at, 0, n));
     }
 }
 
@@ -313,18 +314,30 @@ export class World extends api.WorldCalls {
     constructor(options) {
         super();
         reset();
-        if (options?._p) this._p = options._p; // World.load
+        if (options?._p) this._p = options._p, this._player = options._player; // World.load, Player
         else {
             ok(x.fe_world_create(worldDef(scratch + 16, options), scratch));
             this._shared = options?.store; // lives as long
             this._p = u32[scratch >> 2];
         }
-        const p = this._p, areas = Object.values(this.#areas);
-        free.register(this, () => { endWorld(p); areas.forEach((a) => a.end()); }, this);
+        this._own(this._player);
     }
-    _w() { return this._p || dead('world'); }
+    // From here on the world is the player's, or nobody's but this object's
+    _own(player) {
+        const p = this._p, areas = Object.values(this.#areas);
+        this._player = player;
+        free.unregister(this);
+        free.register(this, () => { if (!player) endWorld(p); areas.forEach((a) => a.end()); }, this);
+    }
+    _w(changes) {
+        if (changes && this._player && this._p) throw new FeatherError('FE_ERROR_STATE', 'the world is a player\'s, to be read: release() hands it over');
+        return this._p || dead('world');
+    }
     destroy() {
-        ok(x.fe_world_destroy(this._w()));
+        ok(x.fe_world_destroy(this._w(1)));
+        this._end();
+    }
+    _end() {
         free.unregister(this);
         Object.values(this.#areas).forEach((a) => a.end());
         this._p = 0;
@@ -334,19 +347,19 @@ export class World extends api.WorldCalls {
 
     createBody(options) {
         reset();
-        ok(x.fe_body_create(this._w(), maybe($body_def, scratch + 16, options, 'options'), scratch));
+        ok(x.fe_body_create(this._w(1), maybe($body_def, scratch + 16, options, 'options'), scratch));
         return new Body(this, id(scratch));
     }
     createBodies(many) {
         reset();
         const [defs, n] = listIn($body_def, many, 'many'), at = temp(8 * n);
-        ok(x.fe_body_create_many(this._w(), defs, $body_def[0], n, at));
+        ok(x.fe_body_create_many(this._w(1), defs, $body_def[0], n, at));
         return Array.from({ length: n }, (_, k) => new Body(this, id(at + 8 * k)));
     }
     destroyBodies(bodies) {
         reset();
         const [at, n] = listIn('h', bodies, 'bodies');
-        ok(x.fe_body_destroy_many(this._w(), at, n));
+        ok(x.fe_body_destroy_many(this._w(1), at, n));
     }
     // The objects of handles; whether something lives there their isValid tells
     body(of) { return new Body(this, Number(handle(of, 'handle'))); }
@@ -355,8 +368,13 @@ export class World extends api.WorldCalls {
     list(bodies) { return new Bodies(this, bodies); }
     createHistory(options) {
         reset();
-        ok(x.fe_history_create(this._w(), maybe($history_def, scratch + 16, options, 'options'), scratch));
+        ok(x.fe_history_create(this._w(1), maybe($history_def, scratch + 16, options, 'options'), scratch));
         return new History(this, u32[scratch >> 2]);
+    }
+    createRecorder(options) {
+        reset();
+        ok(x.fe_recorder_create(this._w(1), maybe($recorder_def, scratch + 16, options, 'options'), scratch));
+        return new Recorder(this, u32[scratch >> 2]);
     }
     get store() { return new Store(undefined, this); }
     createHull(options) { return this.store.createHull(options); }
@@ -416,7 +434,7 @@ export class World extends api.WorldCalls {
     restore(bytes, options) {
         reset();
         const o = restoreOptions(scratch, options);
-        return ok(x.fe_world_restore(this._w(), o, ...bytesIn(bytes, 'bytes'))) === 0;
+        return ok(x.fe_world_restore(this._w(1), o, ...bytesIn(bytes, 'bytes'))) === 0;
     }
     static load(bytes, options, def) {
         reset();
@@ -452,5 +470,11 @@ export function snapshotAssets(bytes) {
     reset();
     const [from, size] = bytesIn(bytes, 'bytes');
     return listOut(16, (at) => [u64[at >> 3], u64[(at >> 3) + 1]], (at, n) => x.fe_snapshot_get_assets(from, size, at, 16, n));
+}
+// The first difference between two worlds, or null
+export function compareSnapshots(a, b) {
+    reset();
+    const found = init($difference, scratch);
+    return ok(x.fe_snapshot_compare(...bytesIn(a, 'a'), ...bytesIn(b, 'b'), found)) ? api.readDifference(found) : null;
 }
 export const version = () => { const v = x.fe_version(); return `${v >> 16}.${(v >> 8) & 255}.${v & 255}`; };

@@ -2,7 +2,8 @@ import {
     WorldCalls, BodyCalls, ShapeCalls, JointCalls, StoreCalls, AssetCalls, HullCalls, HeightfieldCalls, MeshCalls, CompoundCalls,
     Vec3, Quat, Vec3Like, QuatLike, Handle, Hit, Transform, SnapshotInfo, GeometryType, JointType, BodyDefOptions, ShapeDefOptions,
     GeometryOptions, MaterialOptions, HullDefOptions, HeightfieldDefOptions, MeshDefOptions, CompoundPartOptions, TransformOptions,
-    PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions, HistoryDefOptions, HistoryFrame,
+    PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions, HistoryDefOptions, HistoryFrame, RecorderDefOptions,
+    PlayerDefOptions, PlayerInfo, Note, Divergence, Difference,
 } from './api.js';
 export * from './api.js';
 
@@ -111,6 +112,44 @@ export class History {
     [Symbol.dispose](): void;
 }
 
+/** A recording of a world while it grows; World.createRecorder begins it. It ends with destroy, or when it is forgotten. */
+export class Recorder {
+    readonly world: World;
+    /** What was recorded since the last read, to be appended to a file; of a flight recorder all that it keeps. */
+    read(into?: Uint8Array): Uint8Array;
+    /** Leaves words at this moment: at most 4096 bytes of UTF-8. */
+    note(text: string, about?: Handle<Body | Shape | Joint | Asset> | null): void;
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+/** `store` is where assets are found that the recording does not hold. */
+export interface PlayerOptions extends PlayerDefOptions { store?: Store }
+/** A world that does what a recording says. */
+export class Player {
+    constructor(recording?: ArrayBuffer | ArrayBufferView | null, options?: PlayerOptions | null);
+    /** Adds bytes of a recording, in pieces of any size. */
+    feed(bytes: ArrayBuffer | ArrayBufferView): void;
+    /** The recorded calls up to the end of the next step. False: there are no more yet. FE_ERROR_DIVERGED, once, when the
+     * world went another way: `divergence` tells it, and the next call goes on. */
+    step(): boolean;
+    /** To the end of a step, forwards or backwards, as `info` counts them. False: the recording ends before it. */
+    seek(step: number): boolean;
+    /** Steps to the end, and gives the world after each. */
+    [Symbol.iterator](): IterableIterator<World>;
+    /** The world as it is now, to be read: what changes it is FE_ERROR_STATE, and so is this before the first step. */
+    readonly world: World;
+    /** Hands the world over: it may be changed, stepped and destroyed, and outlives the player. A seek makes another. */
+    release(): World;
+    readonly info: PlayerInfo;
+    /** The words that were left in what it was fed. */
+    readonly notes: Note[];
+    /** The first difference between the replay and its recording. */
+    readonly divergence: Divergence | null;
+    /** Its world ends with it, unless that was released. */
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+
 export interface WorldOptions extends WorldDefOptions { store?: Store }
 export interface RestoreOptions extends RestoreOptionsOptions { assets?: readonly Asset[] }
 
@@ -131,6 +170,8 @@ export class World extends WorldCalls {
     list(bodies: ArrayLike<Handle<Body>>): Bodies;
     /** The last frames of the world, to go back to. */
     createHistory(options?: HistoryDefOptions | null): History;
+    /** Begins a recording; a world has one at most. */
+    createRecorder(options?: RecorderDefOptions | null): Recorder;
     readonly store: Store;
     createHull(options: HullDefOptions | ArrayLike<number>): Hull;
     createHeightfield(options: HeightfieldDefOptions): Heightfield;
@@ -159,6 +200,8 @@ export function instanceType(drawn: Drawn, index: number): GeometryType;
 /** Every check of a restore, without a world. */
 export function checkSnapshot(bytes: ArrayBuffer | ArrayBufferView): SnapshotInfo;
 export function snapshotAssets(bytes: ArrayBuffer | ArrayBufferView): AssetKey[];
+/** Where two snapshots differ first, or null. */
+export function compareSnapshots(a: ArrayBuffer | ArrayBufferView, b: ArrayBuffer | ArrayBufferView): Difference | null;
 export function version(): string;
 /** The last refusal, in a sentence. */
 export function lastError(): string;

@@ -5,7 +5,8 @@ export * from './names.js';
 async function bytes() {
     const url = new URL('./feather.wasm', import.meta.url);
     if (url.protocol !== 'file:') return fetch(url);
-    const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ 'node:fs/promises');
+    const files = 'node:fs/promises'; // by a name that no bundler follows: it is node's alone
+    const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ files);
     return readFile(url);
 }
 let started;

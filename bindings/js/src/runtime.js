@@ -25,7 +25,7 @@ function renew() {
 }
 
 const decoder = new TextDecoder();
-function text(at) {
+export function text(at) {
     let end = at;
     while (u8[end]) ++end;
     return decoder.decode(u8.slice(at, end));
@@ -59,7 +59,9 @@ export function start(source) {
 }
 export async function startAsync(source) {
     if (x) return;
-    const isResponse = typeof Response !== 'undefined' && source instanceof Response;
+    // `Response` is named for nothing else: node loads its whole fetch, some 40 ms, when it is
+    const isModule = ArrayBuffer.isView(source) || source instanceof ArrayBuffer || source instanceof WebAssembly.Module;
+    const isResponse = !isModule && typeof Response !== 'undefined' && source instanceof Response;
     if (isResponse && WebAssembly.instantiateStreaming && /^application\/wasm/.test(source.headers.get('content-type'))) {
         const { instance } = await WebAssembly.instantiateStreaming(source, imports);
         return begin(instance);
@@ -89,6 +91,12 @@ export const yes = (n) => ok(n) !== 0;
 const shown = (v) => (typeof v === 'string' ? JSON.stringify(v) : typeof v === 'object' && v ? v.constructor?.name ?? 'object' : String(v));
 export function wrong(name, wanted, v) { throw new TypeError(`${name} must be ${wanted}, is ${shown(v)}`); }
 export const lastError = () => text(x.fe_last_error());
+
+// ---- ends of objects ------------------------------------------------------------------------------------------------
+
+export const dead = (what) => { throw new FeatherError('FE_ERROR_STALE', `the ${what} is destroyed`); };
+export const free = new FinalizationRegistry((end) => end());
+export const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
 // ---- memory for one call --------------------------------------------------------------------------------------------
 
@@ -196,15 +204,15 @@ export const getDvec3 = (at) => ({ x: f64[at >> 3], y: f64[(at >> 3) + 1], z: f6
 export const getQuat = (at) => ({ x: f32[at >> 2], y: f32[(at >> 2) + 1], z: f32[(at >> 2) + 2], w: f32[(at >> 2) + 3] });
 
 // ---- records --------------------------------------------------------------------------------------------------------
-// A table of a record: [size, init, { name: [offset, writer, more] }]; init is a function of the library, or what makes
-// a record without one whole.
+// A table of a record: [size, init, fields, aliases]; both of these { name: [offset, writer, more] }; init is a function
+// of the library, or what makes a record without one whole.
 
 // Writes the fields that `given` has over what is there
 export function put(table, at, given, name) {
     if (given === null || typeof given !== 'object') wrong(name, 'an object', given);
     for (const key in given) {
-        const field = table[2][key];
-        if (!field) throw new TypeError(`${name} has no ${key}; it has ${Object.keys(table[2]).join(', ')}`);
+        const field = table[2][key] ?? table[3]?.[key];
+        if (!field) throw new TypeError(`${name} has no ${key}; it has ${Object.keys({ ...table[2], ...table[3] }).join(', ')}`);
         if (given[key] !== undefined) field[1](at + field[0], given[key], name ? name + '.' + key : key, field[2], at);
     }
     return at;
@@ -224,6 +232,7 @@ export const W = {
     f(at, v, name) { f32[at >> 2] = num(v, name); },
     d(at, v, name) { f64[at >> 3] = num(v, name); },
     i(at, v, name) { i32[at >> 2] = int(v, name); },
+    flag(at, v, name) { i32[at >> 2] = int(v, name); }, // is read as true or false
     u(at, v, name) { u32[at >> 2] = uint(v, name); },
     q(at, v, name) { u64[at >> 3] = big(v, name); },
     h(at, v, name) { u64[at >> 3] = handle(v, name); },
@@ -247,6 +256,22 @@ export const W = {
     },
     frictions(at, v, name) { f32[at >> 2] = f32[(at >> 2) + 1] = num(v, name); },
 };
+
+const READ = new Map([
+    [W.f, (at) => f32[at >> 2]], [W.d, (at) => f64[at >> 3]], [W.i, (at) => i32[at >> 2]], [W.flag, (at) => i32[at >> 2] !== 0],
+    [W.u, (at) => u32[at >> 2]], [W.bits, (at) => u32[at >> 2]], [W.q, wide], [W.h, id], [W.word, (at, words) => nameOf(words, i32[at >> 2])],
+    [vec3, getVec3], [dvec3, getDvec3], [quat, getQuat], [W.record, (at, table) => get(table, at)],
+    [W.array, (at, [writer, bytes, count, more]) => Array.from({ length: count }, (_, k) => READ.get(writer)(at + k * bytes, more))],
+]);
+// The fields of a record; lists behind pointers are not read
+export function get(table, at) {
+    const found = {};
+    for (const name in table[2]) {
+        const [offset, writer, more] = table[2][name], read = READ.get(writer);
+        if (read) found[name] = read(at + offset, more);
+    }
+    return found;
+}
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------
 
@@ -292,12 +317,23 @@ export function bytesIn(v, name) {
     u8.set(view, at);
     return [at, BigInt(view.length)];
 }
+// Text as UTF-8 that a 0 ends
+export function textIn(v, name) {
+    if (typeof v !== 'string' || v.includes('\0')) wrong(name, 'a string without zeros', v);
+    const bytes = new TextEncoder().encode(v), at = temp(bytes.length + 1);
+    u8.set(bytes, at), u8[at + bytes.length] = 0;
+    return at;
+}
 // Asks `call(at, capacity)` for bytes; into `into` if that is given
 export function bytesOut(call, into, name) {
     const size = Number(call(0, 0n));
     ok(size < 0 ? size : 0);
     const at = temp(size);
     ok(Math.min(Number(call(at, BigInt(size))), 0));
+    return bytesWritten(at, size, into, name);
+}
+// A copy of bytes of the module, or into `into`
+export function bytesWritten(at, size, into, name) {
     if (into === undefined) return u8.slice(at, at + size);
     if (!(into instanceof Uint8Array)) wrong(name, 'a Uint8Array', into);
     if (into.length < size) wrong(name, `a Uint8Array of at least ${size} bytes`, into);

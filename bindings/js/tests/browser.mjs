@@ -1,5 +1,6 @@
 // The scene of scenario.mjs in a page of headless Chromium, served as a host serves files: prints its two lines.
-//   node browser.mjs [index.js | inline.js]
+//   node browser.mjs [index.js | inline.js]     the package, or
+//   node browser.mjs bundle folder              what bundle.mjs made of it
 import { createServer } from 'node:http';
 import { spawn } from 'node:child_process';
 import { readFileSync, existsSync, mkdtempSync, rmSync } from 'node:fs';
@@ -7,14 +8,14 @@ import { tmpdir } from 'node:os';
 import { fileURLToPath } from 'node:url';
 
 const entry = process.argv[2] ?? 'index.js', LIMIT = 240e3; // ms; a busy machine takes a minute
-const folder = process.env.FEATHER_PACKAGE ?? fileURLToPath(new URL('../../../build/js', import.meta.url));
+const folder = process.argv[3] ?? process.env.FEATHER_PACKAGE ?? fileURLToPath(new URL('../../../build/js', import.meta.url));
 const page = `<!doctype html><meta charset=utf-8><script type=module>
 const lines = [], log = console.log;
 console.log = (line) => { lines.push(line); log(line); };
 const send = (text) => fetch('/result', { method: 'POST', body: text });
 addEventListener('error', (e) => send('ERROR ' + e.message));
 addEventListener('unhandledrejection', (e) => send('ERROR ' + e.reason));
-try { await import('/scenario.mjs'); await send(lines.join('\\n')); } catch (e) { await send('ERROR ' + e.stack); }
+try { await import('${entry === 'bundle' ? '/js/main.js' : '/scenario.mjs'}'); await send(lines.join('\\n')); } catch (e) { await send('ERROR ' + e.stack); }
 </script>`;
 const served = {
     '/': ['text/html', page],
@@ -28,7 +29,7 @@ function end(text, status) {
     browser?.kill();
     server.close(), server.closeAllConnections();
     setTimeout(() => {
-        rmSync(profile, { recursive: true, force: true, maxRetries: 3 });
+        rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 250 }); // its processes end one by one
         process.exit(status);
     }, 300);
 }

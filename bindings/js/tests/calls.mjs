@@ -19,7 +19,11 @@ export function makeWorld(feather) {
     const history = world.createHistory();
     history.keep(1);
     for (let i = 0; i < 30; ++i) world.step(1 / 60);
-    return { history, world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
+    const taped = new feather.World(), recorder = taped.createRecorder();
+    taped.createBody().addSphere(1);
+    for (let i = 0; i < 9; ++i) taped.step(1 / 60);
+    const recording = recorder.read(), player = new feather.Player(recording);
+    return { recorder, recording, player, history, world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
 }
 const RAY = [[0, 9, 0], [0, -20, 0]], BALL = { type: 'sphere', radius: 0.5 }, AT = { position: [0, 1, 0] }, TURN = [0, 1, 0];
 const POINT = [0, 1, 0], AXIS = [0, 0, 1];
@@ -40,7 +44,7 @@ export const CALLS = {
         ['sweepMany', BALL, [{ start: AT, translation: [1, 0, 0] }]], ['overlap', BALL, AT], ['overlapAny', BALL, AT], ['overlapShapes', BALL, AT],
         ['overlapBounds', { lower: [-1, -1, -1], upper: [1, 1, 1] }], ['closestPoint', [0, 5, 0], 9], ['pairEvents'], ['bodyEvents'], ['hitEvents'], ['jointEvents'],
         ['createBody', { type: 'dynamic', position: [9, 9, 9], linearLocks: ['x', 'y'] }], ['createBodies', [{}, { type: 'static' }]], ['destroyBodies', []],
-        ['list', [s.body, s.other.id]], ['createHistory', { frames: 4, bytes: 1e6 }], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
+        ['list', [s.body, s.other.id]], ['createHistory', { frames: 4, bytes: 1e6 }], ['createRecorder', { flags: ['assets', 'fine'], keyframeSteps: 60 }], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
         ['createHeightfield', { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0] }], ['createMesh', { vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: [0, 1, 2] }],
         ['createCompound', [{ geometry: BALL, density: 5 }]], ['hash'], ['getMoved', [0, 0, 0]], ['save', { flags: 0 }], ['drawLines', { parts: ['shapes', 'bounds'] }],
         ['drawTriangles'], ['drawPoints', { parts: 'contacts' }], ['drawInstances', { only: s.body }], ['setGroup'],
@@ -71,6 +75,8 @@ export const CALLS = {
         ['bytes'], ['createHull', [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]], ['createHeightfield', { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0], holes: [0] }],
         ['createMesh', { vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: new Uint16Array([0, 1, 2]), flags: 'twoSided' }], ['createCompound', [{ geometry: BALL, density: 5 }]],
     ],
+    recorder: (s) => [['note', 'here', s.body], ['read', new Uint8Array(4096)]],
+    player: (s) => [['feed', s.recording.subarray(0, 0)], ['step'], ['seek', 3], ['info'], ['notes'], ['divergence'], ['release']],
     history: () => [['keep', 7], ['frames']],
     hull: () => [['isValid'], ['type'], ['key'], ['save'], ['info'], ['vertices'], ['faces'], ['corners']],
     heightfield: () => [['setHeights', 0, 0, 1, 2, [1, 2]], ['getHeights', 0, 0, 2, 2]],
@@ -78,7 +84,7 @@ export const CALLS = {
     compound: () => [['info'], ['getPart', 1]],
 };
 // Ends or replaces what it is called on, or makes objects of any handle
-export const APART = new Set(['constructor', 'destroy', 'restore', 'load', 'isDestroyed', 'world', 'body', 'shape', 'joint', 'asset', '_w', '_s', '_move', 'store']);
+export const APART = new Set(['constructor', 'destroy', 'restore', 'load', 'isDestroyed', 'world', 'body', 'shape', 'joint', 'asset', '_w', '_s', '_move', '_own', '_end', 'store']);
 // Of joints of other types, see test_feather.mjs
 export const ELSEWHERE = new Set(['distance', 'fixed', 'configurable']);
 export const subject = (s, kind) => ({ hinge: s.joints.hinge, ball: s.joints.ball, store: s.world.store })[kind] ?? s[kind];

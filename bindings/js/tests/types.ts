@@ -4,7 +4,7 @@ import FromModule from 'feather-physics/module';
 import { BodyInstances, rayOf } from 'feather-physics/three';
 
 async function play(): Promise<number> {
-    const { World, FeatherError, Axis } = await Feather();
+    const { World, Player, FeatherError, Axis } = await Feather();
     const world: World = new World({ gravity: [0, -9.81, 0], substeps: 4, simd: 'auto' });
     const body: Body = world.createBody({ type: 'dynamic', position: { x: 0, y: 1, z: 0 }, linearLocks: ['x', 'y'], userData: 5n });
     body.addBox(1, 1, 1, { friction: 0.5, material: { restitution: 0.25, frictionCombine: 'minimum' } });
@@ -29,6 +29,13 @@ async function play(): Promise<number> {
     const drawn = new BodyInstances({ count: 1, instanceMatrix: { count: 1, array: new Float32Array(16), needsUpdate: false } }, world, [body]);
     drawn.keep(world.getMoved());
     world.raycast(...rayOf({}, 0, 0));
+    const recorder = world.createRecorder({ flags: ['assets', 'last'] });
+    recorder.note('here', body);
+    const player = new Player(recorder.read(), { simd: 'auto' });
+    for (const replay of player) replay.raycast([0, 0, 0], [0, 1, 0]);
+    const text: string = player.divergence?.text ?? player.notes[0]!.text;
+    // @ts-expect-error: a player reads bytes, not files
+    player.feed(text);
     await FromModule(new Uint8Array());
     return angle + poses[0]! + (hit?.fraction ?? 0);
 }

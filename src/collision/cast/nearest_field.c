@@ -23,10 +23,9 @@ static double distance_to_bounds(const fe__bounds *b, fe_dvec3 p)
 static void nearest_in(const fe__ground *s, fe_dvec3 p, double width, fe__nearest *best)
 {
     fe__bounds box = around(p, width);
-    fe__form unused;
     fe__ground_walk walk;
     fe__ground_begin(&walk, s, &box, p);
-    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         int32_t number = fe__ground_number(s, i);
         fe_dvec3 v[3], n = fe__ground_normal(s, i);
         fe__ground_corners(s, i, v);

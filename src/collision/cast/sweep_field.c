@@ -74,10 +74,9 @@ int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
 {
     fe__field_search s = fe__field_search_of(surface, mover);
     fe__bounds box = fe__field_covered(&s, 0.0, 0.0);
-    fe__form unused;
     fe__ground_walk walk;
     fe__ground_begin(&walk, surface, &box, mover->position);
-    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe__field_take(&s, i);
         if (fe__approach_overlap(&s.pair).depth >= 0.0) return 1;
     }
@@ -252,10 +251,9 @@ static void sweep_pieces(fe__field_search *s, double t, double end, fe__sweep_hi
         double to = fe__mind(t + piece, end);
         if (!(to > t)) to = end; // a piece below the rounding of t
         fe__bounds box = fe__field_covered(s, t, to);
-        fe__form unused;
         fe__ground_walk walk;
         fe__ground_begin(&walk, s->surface, &box, mover->position);
-        for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(s, i, hit);
+        for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) meet_triangle(s, i, hit);
         if (to >= end || (hit->triangle >= 0 && hit->t <= to)) return;
         t = to;
     }

@@ -88,10 +88,9 @@ int32_t fe__ground_turn(const fe__ground *surface, const fe__mover *mover, doubl
         if (!(to > t)) to = end; // a piece below the rounding of t
         f.search.half = half_between(&f, t, to);
         fe__bounds box = fe__field_covered(&f.search, t, to);
-        fe__form unused;
         fe__ground_walk walk;
         fe__ground_begin(&walk, surface, &box, mover->position);
-        for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(&f, i, t, to, hit);
+        for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) meet_triangle(&f, i, t, to, hit);
         if (hit->triangle >= 0) return 1;
         if (to >= end) return 0;
         t = to;

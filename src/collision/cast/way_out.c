@@ -46,10 +46,9 @@ static void gather(fe__field_search *s, overlaps *all)
 {
     int32_t is_two_sided = fe__ground_is_two_sided(s->surface);
     fe__bounds box = fe__field_covered(s, 0.0, 0.0);
-    fe__form unused;
     fe__ground_walk walk;
     fe__ground_begin(&walk, s->surface, &box, s->mover->position);
-    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         all->count += 1;
         fe__field_take(s, i);
         fe__core_overlap o = fe__approach_overlap(&s->pair);
@@ -93,10 +92,9 @@ static double way_along(const fe__field_search *from, fe_dvec3 direction, double
     fe__approach_hit first = {.t = 1.0}, hit;
     int32_t is_right = 0;
     fe__bounds box = fe__field_covered(&s, 0.0, 1.0);
-    fe__form unused;
     fe__ground_walk walk;
     fe__ground_begin(&walk, s.surface, &box, mover.position);
-    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe__field_take(&s, i);
         fe__core_overlap overlap = fe__approach_overlap(&s.pair);
         if (overlap.depth >= 0.0) return (double)INFINITY;

@@ -152,18 +152,28 @@ static fe__clip_vertex crossing(const fe__clip_vertex *p, const fe__clip_vertex 
                              p->height + t * (q->height - p->height), id};
 }
 
-static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, int32_t count, int32_t closed,
-                           fe__clip_vertex *out)
+// Of each vertex how far it is inside. 1: all of them are
+static int32_t measure(const cutter *c, const fe__clip_vertex *in, int32_t count, float *out_inside)
+{
+    int32_t all = 1;
+    for (int32_t i = 0; i < count; ++i) {
+        out_inside[i] = inside_by(c, &in[i]);
+        all &= out_inside[i] >= 0.0f;
+    }
+    return all;
+}
+
+static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, const float *inside, int32_t count,
+                           int32_t closed, fe__clip_vertex *out)
 {
     int32_t left = 0;
     for (int32_t i = 0; i < count; ++i) {
-        float here = inside_by(c, &in[i]);
         if (closed || i > 0) {
-            const fe__clip_vertex *previous = &in[i > 0 ? i - 1 : count - 1];
-            float before = inside_by(c, previous);
-            if ((before < 0.0f) != (here < 0.0f)) out[left++] = crossing(previous, &in[i], before, here, c->side);
+            int32_t previous = i > 0 ? i - 1 : count - 1;
+            if ((inside[previous] < 0.0f) != (inside[i] < 0.0f))
+                out[left++] = crossing(&in[previous], &in[i], inside[previous], inside[i], c->side);
         }
-        if (here >= 0.0f) out[left++] = in[i];
+        if (inside[i] >= 0.0f) out[left++] = in[i];
     }
     return left;
 }
@@ -172,12 +182,14 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
                          int32_t count, float slack)
 {
     fe__clip_vertex other[FE_CLIP_VERTICES], *in = incident, *out = other;
+    float inside[FE_CLIP_VERTICES];
     int32_t closed = count > 2;
     for (int32_t i = 0; i < reference_count && count > 0; ++i) {
         const fe__clip_vertex *p = &reference[i], *q = &reference[(i + 1) % reference_count];
         float du = q->u - p->u, dv = q->v - p->v, inverse = 1.0f / sqrtf(du * du + dv * dv);
         cutter c = {p->u, p->v, inverse * du, inverse * dv, slack, i};
-        count = cut_polygon(&c, in, count, closed, out);
+        if (measure(&c, in, count, inside)) continue;
+        count = cut_polygon(&c, in, inside, count, closed, out);
         fe__clip_vertex *swap = in;
         in = out, out = swap;
     }

@@ -15,10 +15,13 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 // of equally far corners the first
 static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
 {
-    fe_dvec3 far = corners[0];
-    for (int32_t i = 1; i < 3; ++i)
-        if (fe__ddot(corners[i], direction) > fe__ddot(far, direction)) far = corners[i];
-    return far;
+    int32_t far = 0;
+    double most = fe__ddot(corners[0], direction);
+    for (int32_t i = 1; i < 3; ++i) {
+        double along = fe__ddot(corners[i], direction);
+        if (along > most) most = along, far = i;
+    }
+    return corners[far];
 }
 
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)

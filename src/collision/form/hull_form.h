@@ -3,6 +3,7 @@
 #define FE_COLLISION_FORM_HULL_FORM_H
 #include "collision/form/hull.h"
 #include "collision/form/support.h"
+#include "core/memory.h"
 
 // `index`: of its asset
 fe__form fe__hull_form(const fe__hull *hull, int32_t index);
@@ -31,6 +32,30 @@ static inline fe_dvec3 fe__in_hull(const fe__form *form, fe_dvec3 point)
 static inline fe_dvec3 fe__from_hull(const fe__form *form, fe_dvec3 point)
 {
     return fe__dadd(fe__widen(form->offset), fe__dscale((double)form->scale, point));
+}
+
+// Asks memory for a form's hull, then, when that is there, for its vertices and planes, and for what says which of them
+// are next to each other: of a large hull, whose arrays one look does not read to their ends, a part of each
+FE_FETCHES fe__hull_form_fetch(const fe__form *form)
+{
+    if (fe__form_is_hull(form)) fe__fetch(form->hull, sizeof *form->hull);
+}
+FE_FETCHES fe__fetch_between(const void *from, const void *to)
+{
+    const ptrdiff_t most = 2048; // bytes
+    ptrdiff_t size = (const char *)to - (const char *)from;
+    fe__fetch(from, (unsigned)(size < most ? size : most));
+}
+FE_FETCHES fe__hull_form_fetch_vertices(const fe__form *form)
+{
+    if (fe__form_is_hull(form)) fe__fetch_between(form->hull->vertices.x, form->hull->normals.x);
+}
+FE_FETCHES fe__hull_form_fetch_faces(const fe__form *form)
+{
+    if (!fe__form_is_hull(form)) return;
+    const fe__hull *h = form->hull;
+    fe__fetch_between(h->normals.x, h->tails.x);
+    fe__fetch_between(h->edges, (const char *)h->block + h->size);
 }
 
 #endif

@@ -95,14 +95,25 @@ static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
 // ---- triangles -----------------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+// Corner k of a triangle is the three floats at first + 3 corner[k], and one behind them that is another vertex's
+typedef struct corners {
+    const float *first;
+    const uint8_t *corner;
+} corners;
+static inline corners corners_of(const fe__mesh *mesh, int32_t slot)
 {
     const fe__mesh_leaf *leaf = mesh->leaves + (uint32_t)slot / FE__MESH_LEAF;
-    const uint8_t *corner = leaf->corner[(uint32_t)slot % FE__MESH_LEAF];
-    const float *first = mesh->vertices + 3 * (size_t)leaf->first_vertex;
-    fe__quad a = *(const loose_quad *)(first + 3 * (size_t)corner[0]),
-             b = *(const loose_quad *)(first + 3 * (size_t)corner[1]),
-             c = *(const loose_quad *)(first + 3 * (size_t)corner[2]);
+    return (corners){mesh->vertices + 3 * (size_t)leaf->first_vertex, leaf->corner[(uint32_t)slot % FE__MESH_LEAF]};
+}
+static inline fe__quad load_corner(const corners *c, int32_t k)
+{
+    return *(const loose_quad *)(c->first + 3 * (size_t)c->corner[k]);
+}
+
+static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+{
+    const corners of = corners_of(mesh, slot);
+    fe__quad a = load_corner(&of, 0), b = load_corner(&of, 1), c = load_corner(&of, 2);
     *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
     *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
 }
@@ -117,25 +128,21 @@ static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
 
 void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle)
 {
-    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
+    const corners of = corners_of(mesh, slot);
     const double *s = mesh->scale;
+    const fe__pair scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y}, z = {origin.z, origin.z};
+    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     for (int32_t k = 0; k < 3; ++k) {
-        const float *p = fe__mesh_vertex(mesh, slot, fe__mesh_own_corner(mesh, k));
-        fe_dvec3 corner = {s[0] * (double)p[0], s[1] * (double)p[1], s[2] * (double)p[2]};
-        triangle->vertex[k] = fe__narrow(fe__dsub(corner, origin));
+        fe__quad p = load_corner(&of, fe__mesh_own_corner(mesh, k));
+        fe__quad corner = fe__quad_narrow(scale_xy * fe__pair_low(p) - xy, scale_z * fe__pair_high(p) - z);
+        memcpy(triangle->vertex + k, &corner, sizeof *triangle->vertex);
     }
 }
 
-// The next slot whose triangle meets the box, -1: no more
-static int32_t next_in_tree(fe__mesh_walk *w, fe__mesh_span *out)
+// Down to the next leaf whose box is met; 0: no more
+static int32_t find_leaf(fe__mesh_walk *w)
 {
-    for (;;) {
-        while (w->slot < w->end) {
-            int32_t slot = w->slot++;
-            set_span(w->mesh, slot, out);
-            if (meets(w, out)) return slot;
-        }
-        if (!w->top) return -1;
+    while (w->top) {
         uint32_t child = w->stack[--w->top];
         if (!(child & FE__MESH_LEAVES)) {
             open_node(w, w->mesh->nodes + child);
@@ -143,7 +150,23 @@ static int32_t next_in_tree(fe__mesh_walk *w, fe__mesh_span *out)
         }
         w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
         w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+        return 1;
     }
+    return 0;
+}
+
+// The next slot whose triangle meets the box, -1: no more
+static int32_t next_in_tree(fe__mesh_walk *w)
+{
+    fe__mesh_span span;
+    do {
+        while (w->slot < w->end) {
+            int32_t slot = w->slot++;
+            set_span(w->mesh, slot, &span);
+            if (meets(w, &span)) return slot;
+        }
+    } while (find_leaf(w));
+    return -1;
 }
 
 static int32_t next_of_near(fe__mesh_walk *w)
@@ -155,11 +178,7 @@ static int32_t next_of_near(fe__mesh_walk *w)
     return -1;
 }
 
-int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w)
-{
-    fe__mesh_span span;
-    return w->near ? next_of_near(w) : next_in_tree(w, &span);
-}
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w) { return w->near ? next_of_near(w) : next_in_tree(w); }
 
 int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
 {
@@ -168,17 +187,27 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
     return slot;
 }
 
+// Those of the walk's leaf that meet its box. Which do no branch can guess: each is written, and the next over it if it
+// does not count
+static void add_leaf(const fe__mesh_walk *w, fe__mesh_near *near)
+{
+    for (int32_t slot = w->slot; slot < w->end && near->count >= 0; ++slot) {
+        fe__mesh_span span;
+        set_span(w->mesh, slot, &span);
+        int32_t met = meets(w, &span);
+        if (near->count < FE__MESH_NEAR) {
+            near->spans[near->count] = span;
+            near->slots[near->count] = slot;
+            near->count += met;
+        } else if (met)
+            near->count = -1;
+    }
+}
+
 void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
 {
     fe__mesh_walk walk;
-    fe__mesh_span span;
     near->box = *box, near->count = 0, near->is_all = 0, near->among = near->among_last = 0;
     fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
-    for (int32_t slot; near->count >= 0 && (slot = next_in_tree(&walk, &span)) >= 0;) {
-        if (near->count < FE__MESH_NEAR) {
-            near->spans[near->count] = span;
-            near->slots[near->count++] = slot;
-        } else
-            near->count = -1;
-    }
+    while (near->count >= 0 && find_leaf(&walk)) add_leaf(&walk, near);
 }

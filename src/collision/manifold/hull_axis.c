@@ -48,17 +48,39 @@ static int32_t least_along(const fe__hull *hull, fe_vec3 direction, float *least
     return at[best];
 }
 
-// Of `own`, against the vertices of `other`, which stands at `position` with axes turned by `rotation`.
+// Which planes, four from i on, may hold a point q of the other hull farther off than `least`? A bit for each
+static uint32_t faces_near(const fe__hull *hull, int32_t i, fe_vec3 q, float least)
+{
+    lanes normal = lanes_at(&hull->normals, i);
+    int32_t rest = hull->face_count - i;
+    return w_bits(along(&normal, q) - load(hull->distances + i) >= least) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
+}
+
+static float size(fe_vec3 a) { return fe__absf(a.x) + fe__absf(a.y) + fe__absf(a.z); }
+
+// Of `own`, against the vertices of `other`, which stands at `position` with axes turned by `rotation`. A plane holds
+// the hulls apart by no more than it does any vertex: that which lies least far along the best so far shows most planes
+// to be worse, side by side up to roundings, then by the same sum as all vertices.
 static fe__hull_axis of_faces(const fe__hull *own, const fe__hull *other, fe_vec3 position, const fe__mat3 *rotation)
 {
+    const float rounding = 1e-5f; // of the sizes
+    float doubt = rounding * (own->extent + other->extent + size(position));
     fe__hull_axis best = {.separation = -FLT_MAX};
-    for (int32_t i = 0; i < own->face_count; ++i) {
-        float least;
-        fe_vec3 normal = fe__hull_normal(own, i);
-        int32_t deepest = least_along(other, fe__mul_transposed(rotation, normal), &least);
-        float separation = least + (fe__dot(normal, position) - own->distances[i]);
-        if (separation > best.separation)
+    fe_vec3 nearest = fe__hull_vertex(other, 0), there = fe__add(position, fe__mul(rotation, nearest));
+    for (int32_t first = 0; first < own->face_count; first += FE_W) {
+        uint32_t left = faces_near(own, first, there, best.separation - doubt);
+        for (; left; left &= left - 1) {
+            int32_t i = first + __builtin_ctz(left);
+            float least;
+            fe_vec3 normal = fe__hull_normal(own, i), direction = fe__mul_transposed(rotation, normal);
+            float beyond = fe__dot(normal, position) - own->distances[i];
+            if (fe__dot(nearest, direction) + beyond <= best.separation) continue;
+            int32_t deepest = least_along(other, direction, &least);
+            float separation = least + beyond;
+            if (!(separation > best.separation)) continue;
             best = (fe__hull_axis){.separation = separation, .normal = normal, .a = i, .b = deepest};
+            nearest = fe__hull_vertex(other, deepest), there = fe__add(position, fe__mul(rotation, nearest));
+        }
     }
     return best;
 }

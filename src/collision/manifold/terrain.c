@@ -92,19 +92,20 @@ static mover mover_of(const fe__form *b, const fe__mat3 *rotation)
                    0};
 }
 
-static void touch_triangle(fe__gathering *g, const mover *m, const fe__form *triangle, int32_t index)
+// of which the form is there
+static void touch_triangle(fe__gathering *g, const mover *m, fe__tile *tile, int32_t index)
 {
     const fe__terrain *t = g->terrain;
     const float rounding = 1.0001f;
-    if (m->culls && is_beyond(triangle->vertex, m->core, rounding * (m->b->radius + g->margin))) return;
-    fe__tile tile = fe__tile_of(t, triangle, index);
-    if (t->known_count && (t->ground.mesh || m->is_box || m->is_curved) && fe__tile_is_known(t, &tile)) return;
+    if (m->culls && is_beyond(tile->form.vertex, m->core, rounding * (m->b->radius + g->margin))) return;
+    fe__tile_place(t, index, tile);
+    if (t->known_count && (t->ground.mesh || m->is_box || m->is_curved) && fe__tile_is_known(t, tile)) return;
     if (m->is_box)
-        fe__tile_touch_box(g, &tile, m->b, m->rotation);
+        fe__tile_touch_box(g, tile, m->b, m->rotation);
     else if (m->is_curved)
-        fe__tile_touch_curved(g, &tile, m->b, m->rotation);
+        fe__tile_touch_curved(g, tile, m->b, m->rotation);
     else
-        fe__tile_touch_round(g, &tile, m->ends, m->b->radius);
+        fe__tile_touch_round(g, tile, m->ends, m->b->radius);
 }
 
 static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rotation)
@@ -112,13 +113,13 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     const fe__terrain *t = g->terrain;
     const fe__mesh_near *near = t->ground.near;
     mover m = mover_of(b, rotation);
-    fe__form triangle;
+    fe__tile tile;
     if (near && near->is_all) {
         m.culls = !(m.is_box || m.is_curved);
         for (uint64_t left = t->is_last ? near->among_last : near->among; left; left &= left - 1) {
             int32_t slot = near->slots[__builtin_ctzll(left)];
-            fe__mesh_triangle(t->ground.mesh, slot, t->origin, &triangle);
-            touch_triangle(g, &m, &triangle, slot);
+            fe__mesh_triangle(t->ground.mesh, slot, t->origin, &tile.form);
+            touch_triangle(g, &m, &tile, slot);
         }
         return;
     }
@@ -129,7 +130,7 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     m.culls = !(m.is_box || m.is_curved) && !(depth > 0.0);
     fe__ground_walk walk;
     fe__ground_begin(&walk, &t->ground, &box, t->origin);
-    for (int32_t i; (i = fe__ground_next(&walk, &triangle)) >= 0;) touch_triangle(g, &m, &triangle, i);
+    for (int32_t i; (i = fe__ground_next(&walk, &tile.form)) >= 0;) touch_triangle(g, &m, &tile, i);
 }
 
 static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin)

@@ -46,14 +46,17 @@ void fe__find_triangles_on_course(const fe__terrain *t, const fe__form *b, const
     if (near->count < 0) return;
     near->is_all = 1, near->margin = margin;
     fe__course_corners corners;
-    int32_t last = near->count - 1;
-    for (int32_t i = 0; i <= last || i % FE__COURSE_LANES; ++i) {
-        fe__form triangle;
-        fe__mesh_triangle(t->ground.mesh, near->slots[fe__mini(i, last)], t->origin, &triangle);
+    int32_t i = 0;
+    for (fe__form triangle; i < near->count; ++i) {
+        fe__mesh_triangle(t->ground.mesh, near->slots[i], t->origin, &triangle);
         for (int32_t k = 0; k < 3; ++k)
             corners.x[k][i] = triangle.vertex[k].x, corners.y[k][i] = triangle.vertex[k].y,
             corners.z[k][i] = triangle.vertex[k].z;
     }
+    for (; i % FE__COURSE_LANES; ++i)
+        for (int32_t k = 0; k < 3; ++k)
+            corners.x[k][i] = corners.x[k][i - 1], corners.y[k][i] = corners.y[k][i - 1],
+            corners.z[k][i] = corners.z[k][i - 1];
     fe__met_on_course met = kernel(&c, &corners, near->count);
     const uint64_t there = near->count < FE__MESH_NEAR ? (UINT64_C(1) << near->count) - 1 : UINT64_MAX;
     near->among = met.on_way & there, near->among_last = met.at_end & there;

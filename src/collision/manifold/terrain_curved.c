@@ -146,11 +146,13 @@ static void find_distance(const contest *c, const fe__cores *cores, fe_dvec3 low
 // 0: apart
 static int32_t find_nearest(const contest *c, const low_point *low, fe__touch *found)
 {
-    fe__cores cores = {.a = &c->tile->form,
-                       .b = c->form,
+    const fe_vec3 *v = c->tile->form.vertex;
+    const fe_dvec3 corners[3] = {fe__widen(v[0]), fe__widen(v[1]), fe__widen(v[2])};
+    fe__cores cores = {.b = c->form,
                        .axis_x = fe__widen(c->rotation->x),
                        .axis_y = fe__widen(c->rotation->y),
-                       .axis_z = fe__widen(c->rotation->z)};
+                       .axis_z = fe__widen(c->rotation->z),
+                       .corners = corners};
     fe__gjk gjk;
     find_distance(c, &cores, low->at, &gjk);
     if (gjk.distance > (double)c->g->margin) return 0;

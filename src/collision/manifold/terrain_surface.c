@@ -104,15 +104,14 @@ static fe_vec3 normal_of(const fe__terrain *t, const fe__form *triangle, int32_t
     return fe__narrow(fe__ground_normal(&t->ground, index));
 }
 
-fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
+void fe__tile_place(const fe__terrain *t, int32_t index, fe__tile *tile)
 {
-    fe__tile tile = {.form = *triangle, .index = index, .size = longest_side(triangle->vertex)};
-    tile.normal = normal_of(t, triangle, index, tile.size);
+    tile->index = index, tile->size = longest_side(tile->form.vertex);
+    tile->normal = normal_of(t, &tile->form, index, tile->size);
     if (t->ground.mesh)
-        find_sides(t->ground.mesh, &tile);
+        find_sides(t->ground.mesh, tile);
     else
-        find_place(t->ground.field, &tile);
-    return tile;
+        find_place(t->ground.field, tile);
 }
 
 int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t side)

@@ -13,7 +13,7 @@ typedef struct fe__tile {
     float size; // longest side, m
 } fe__tile;
 
-fe__tile fe__tile_of(const fe__terrain *terrain, const fe__form *triangle, int32_t index);
+void fe__tile_place(const fe__terrain *terrain, int32_t index, fe__tile *tile); // whose form is there
 // Does the surface bend down, or end, beyond side k?
 int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 // The triangle of a heightfield beyond side k, -1: a hole or the border. A mesh does not tell: -1.

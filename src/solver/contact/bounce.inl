@@ -122,7 +122,7 @@ FE_INLINE void NAMED(sweep_bounce)(SPECIAL_ROW *x, pair *p, const wide *target, 
         UNROLL for (int i = 0; i < POINTS; ++i) points[i] = row->point[i].impulse;
         NAMED(bounce_points)(row, p, target, kind);
         NAMED(solve_rolling)(x, p, kind);
-        NAMED(solve_friction)(row, p, kind);
+        NAMED(solve_friction)(row, p, w_set(1.0f), kind);
         if (alone) more = NAMED(settles)(row, points, tangent, lanes);
     }
     NAMED(bounce_points)(row, p, target, kind);

@@ -10,7 +10,11 @@
 
 #include <float.h>
 
+#if FE_WASM
+#define UNROLL // small, as FE_INLINE says
+#else
 #define UNROLL _Pragma("GCC unroll 8")
+#endif
 
 // a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise
 // make some points soft and others rigid, and a box that landed flat would rotate
@@ -35,15 +39,19 @@
 // comes at once rotates the body until the normals balance its moment, a substep later; friction then makes good what
 // was lost: at most 1.25 times the force. A sliding contact requests more from a hundredth of a m/s on.
 #define BREAKAWAY 1.3f
-// a change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
-// most
+// A change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
+// most. Of what lands, the share of its friction: it keeps what is wrong then.
 #define UNSETTLED 0.1f
+#define UNSETTLED_LANDING 0.02f
 #define UNSETTLED_SPEED 0.005f
 #define SETTLING 4
-// of a load within a substep: an impact
-#define IMPACT_RISE 1.5f
-// and what it stops, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of 1/30 s;
-// its friction is no impact's, and without it the body would begin to slide
+// The greatest share of the rest that a run of a row leaves: a cube's is 0.6, and parts of bodies that are held
+// elsewhere too are stretched by 4 at most.
+#define MOST_SHARE 0.75f
+// An impact: this share of the load came within a substep,
+#define IMPACT_SHARE (1.0f / 3.0f)
+// and stopped this much, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of
+// 1/30 s; its friction is no impact's, and without it the body would begin to slide
 #define IMPACT_SPEED 0.05f
 
 typedef struct {

@@ -285,12 +285,14 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
     }
 }
 
-FE_INLINE void NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+// Returns by how much the load changed
+FE_INLINE wide NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     wide request[POINTS], scale[POINTS], sum;
     NAMED(requests)(row, c, p, kind, soft, request, scale);
     wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    return sum;
 }
 
 // The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what
@@ -309,27 +311,28 @@ FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const af
     return gain;
 }
 
-FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+FE_INLINE wide NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
     wide before[POINTS];
     affine was = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i) before[i] = row->point[i].impulse;
     if (kind & FE__ROW_SPECIAL && soft) x->when = w_set(c->h);
-    NAMED(apply_normals)(row, c, p, kind, soft);
-    if (!(kind & FE__ROW_SPECIAL)) return;
+    wide change = NAMED(apply_normals)(row, c, p, kind, soft);
+    if (!(kind & FE__ROW_SPECIAL)) return change;
     affine is = NAMED(normal_velocity)(p);
     wide gain = NAMED(gain_of)(x, before, &was, &is, (soft ? 0.5f : -0.5f) * c->h * x->closing);
     x->gain = soft ? gain : x->gain + gain;
+    return change;
 }
 
 // ---- friction -------------------------------------------------------------------------------------------------------
 
 // Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum
 // l_i. Twist reaches the tangents through twist_tangent, so that both are applied to the bodies at once. A contact
-// sticks up to the static friction; one that would need much more slides, with the dynamic one. Returns the lanes whose
-// friction is not settled, see settle.
-FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
+// sticks up to the static friction; one that would need much more slides, with the dynamic one. What the tangents
+// request is taken `stretch` times. Returns by how much they changed, m/s.
+FE_INLINE wide NAMED(solve_friction)(ROW *row, pair *p, wide stretch, int kind)
 {
     wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
     tangents(p->normal, &t1, &t2);
@@ -348,8 +351,9 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
     wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
     const wide *m = row->tangent_mass;
-    wide least = w_set(FE__LEAST_IMPULSE), l1 = w_flush(row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), least),
-         l2 = w_flush(row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2), least);
+    wide least = w_set(FE__LEAST_IMPULSE),
+         l1 = w_flush(row->tangent_impulse[0] - stretch * (m[0] * v1 + m[1] * v2), least),
+         l2 = w_flush(row->tangent_impulse[1] - stretch * (m[1] * v1 + m[2] * v2), least);
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
@@ -361,9 +365,7 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
-    wide response = p->a.inverse_mass + p->b.inverse_mass;
-    wide_mask changes = w_greater(response * (w_abs(d1) + w_abs(d2)), UNSETTLED * load * response + UNSETTLED_SPEED);
-    return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * response));
+    return (p->a.inverse_mass + p->b.inverse_mass) * (w_abs(d1) + w_abs(d2));
 }
 
 // Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning
@@ -417,20 +419,74 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
     }
 }
 
+// By how much the load rose: since the last substep, or by this relax pass. For a touch is stopped in two substeps: the
+// first leaves it the speed that its gap allows, the next takes that, and carries the load of the first. What bears for
+// longer is pressed, not struck: a joint that quarrels with it may raise its load in every relax pass. What has
+// restitution bounces after relax.
+FE_INLINE wide NAMED(rise_of)(const ROW *row, wide gain, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    wide since = NAMED(load_of)(row) - row->load, before = row->total[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) before = before + row->total[i];
+    wide_mask lasts = w_greater(before, row->load);
+    if (kind & FE__ROW_SPECIAL) lasts = w_or(lasts, w_greater(x->restitution, w_set(0.0f)));
+    return w_choose(lasts, since, w_max(gain, since));
+}
+
+FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response)
+{
+    return w_and(w_greater(rise, IMPACT_SHARE * load), w_greater(rise * response, w_set(IMPACT_SPEED)));
+}
+
+// Lanes whose friction changed too much by the last pass, see settle. Of impacts only those of several points, which
+// may hold the body flat. `change`: m/s
+FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change, wide rise, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    wide response = p->a.inverse_mass + p->b.inverse_mass, load = NAMED(load_of)(row);
+    wide friction = w_abs(row->tangent_impulse[0]) + w_abs(row->tangent_impulse[1]);
+    wide_mask gentle = w_greater(w_set(IMPACT_SPEED), rise * response);
+    wide_mask lands = w_and(NAMED(has_many)(row), NAMED(is_impact)(load, rise, response));
+    if (kind & FE__ROW_SPECIAL) lands = w_and(lands, w_not(w_greater(x->restitution, w_set(0.0f))));
+    wide least = w_choose(gentle, UNSETTLED * load, UNSETTLED_LANDING * friction);
+    return w_and(w_or(gentle, lands), w_greater(change, least * response + UNSETTLED_SPEED));
+}
+
+// Friction and points that run by turns approach their result by parts, each the share r of the one before it. After d0
+// and d1 the rest is r d1 (1 + r + r^2 ...), so the next part, r d1, is stretched by
+//     1 / (1 - r),   r = d0.d1 / d0.d0     (Aitken 1926).
+// `last`: d0, then d1; 0 after a part that was stretched, which begins anew. Returns by how much the next part is to be
+// stretched.
+FE_INLINE wide NAMED(note_part)(const ROW *row, const wide *before, wide stretch, wide *last)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f);
+    wide d[2] = {row->tangent_impulse[0] - before[0], row->tangent_impulse[1] - before[1]};
+    wide along = last[0] * d[0] + last[1] * d[1], square = last[0] * last[0] + last[1] * last[1];
+    wide share = w_clamp(along * w_inverse_or_zero(square), zero, w_set(MOST_SHARE));
+    for (int i = 0; i < 2; ++i) last[i] = w_choose(w_greater(stretch, one), zero, d[i]);
+    return one / (one - share);
+}
+
 // A friction that comes at once, of what is set down on a slope or pushed, rotates the body, and the less it is held
 // the lower the friction grips: a cube's friction is two fifths of what it should be. The points resist that rotation
 // and friction has its next part, until little is left; what is at rest, or slides on, has its friction from before.
-// Not in an impact, whose friction is over after the substep.
+// The same happens where several points land: a body that was left turning would leave the ground, or get friction
+// again when it falls back. One point resists no rotation.
 static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled,
-                                                    int kind)
+                                                    wide rise, int kind)
 {
+    wide one = w_set(1.0f), stretch = one, response = p.a.inverse_mass + p.b.inverse_mass;
+    // what lands had no friction before: the first part is that of the pass
+    wide last[2] = {row->tangent_impulse[0], row->tangent_impulse[1]};
+    wide_mask lands = w_greater(rise * response, w_set(IMPACT_SPEED));
     for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
         PASSING before = NAMED(passing_of)(row, &p, kind);
         NAMED(solve_normals)(row, c, &p, kind, 0);
         if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
-        wide_mask more = NAMED(solve_friction)(row, &p, kind);
+        wide change = NAMED(solve_friction)(row, &p, stretch, kind);
+        stretch = w_choose(lands, NAMED(note_part)(row, before.tangent, stretch, last), one);
         NAMED(keep_others)(row, &p, &before, unsettled, kind);
-        unsettled = w_and(unsettled, more);
+        unsettled = w_and(unsettled, NAMED(unsettled)(row, &p, change, rise, kind));
     }
     return p;
 }
@@ -442,16 +498,16 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
 #include "solver/contact/bounce.inl"
 
 // ---- impacts --------------------------------------------------------------------------------------------------------
-// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at
-// once, are over: the next soft pass takes back its normal part, but friction, which only relax solves, would act
+// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by a third of
+// it at once, are over: the next soft pass takes back its normal part, but friction, which only relax solves, would act
 // twice, on bodies that rotated on, and give them energy. So it is carried only as it was before, until the load has
 // lasted for a substep.
-static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose,
-                                                            int kind)
+static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide rise,
+                                                            wide_mask rose, int kind)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
     wide3 n = load3(row->normal), centre = load3(row->centre);
-    wide keep = w_choose(rose, row->load / load, w_set(1.0f)), part = 1.0f - keep;
+    wide part = w_choose(rose, w_min(rise / load, w_set(1.0f)), w_set(0.0f)), keep = 1.0f - part;
     wide3 friction = w_scale(part, NAMED(friction_impulse)(row, n));
     wide3 moment = w_add_scaled(w_cross(centre, friction), part * row->twist_impulse, n);
     if (kind & FE__ROW_SPECIAL) moment = w_add_scaled(moment, part, load3(x->rolling_impulse));
@@ -517,14 +573,15 @@ FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact_arrays *of, const f
 }
 
 // what the substep did
-FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, wide gain, const fe__step_constants *c,
+                                int kind)
 {
-    UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
     wide load = NAMED(load_of)(row), response = p->a.inverse_mass + p->b.inverse_mass;
-    wide_mask rose =
-        w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
+    wide rise = NAMED(rise_of)(row, gain, kind); // with the totals of before
+    UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
+    wide_mask rose = NAMED(is_impact)(load, rise, response);
     if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row, c->threshold)));
-    if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
+    if (w_any(rose)) NAMED(leave_friction)(row, s, load, rise, rose, kind);
     row->load = load;
     if (kind & FE__ROW_SPECIAL) NAMED(count_touches)((SPECIAL_ROW *)row, s, kind);
     if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
@@ -549,12 +606,16 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact_arrays *of, const f
             NAMED(follow)(row, s, &moved, moving, kind);
             p.span = load3(row->span);
         }
-        NAMED(solve_normals)(row, c, &p, kind, 0);
+        wide gain = NAMED(solve_normals)(row, c, &p, kind, 0);
         if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
-        wide_mask unsettled = NAMED(solve_friction)(row, &p, kind);
-        if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
+        wide change = NAMED(solve_friction)(row, &p, w_set(1.0f), kind);
+        if (w_any(w_greater(change, w_set(UNSETTLED_SPEED)))) {
+            wide rise = NAMED(rise_of)(row, gain, kind);
+            wide_mask unsettled = NAMED(unsettled)(row, &p, change, rise, kind);
+            if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, rise, kind);
+        }
         NAMED(scatter_pair)(row, s, &p, kind);
-        if (!c->more) NAMED(note_load)(row, s, &p, c, kind);
+        if (!c->more) NAMED(note_load)(row, s, &p, gain, c, kind);
     }
 }
 

@@ -1,0 +1,116 @@
+// scan.js - a worker that plays the recording by itself, as fast as it can, and tells of each step what the plots show.
+// It has a module of its own. Numbers of a step: those of COLUMNS in series.js, then the pinned ones.
+import Feather, { Player } from 'feather-physics/module';
+import { x, u32, f32, u64, scratch, temp, reset } from 'feather-physics/runtime.js';
+import { readPin } from './series.js';
+
+const BATCH = 60, MS = 40; // steps, ms between two messages at most
+// Of fe_contact and fe_joint_state, bytes
+const CONTACT = 272, POINT_COUNT = 60, POINTS = 64, POINT = 40, SEPARATION = 24, LINEAR_ERROR = 60, JOINT_STATE = 68;
+const MOST_JOINTS = 4000;
+
+let player, pins = [], generation = 0, running = false, dead = false, begun = false, queue = Promise.resolve();
+const fed = [];
+
+// The deepest overlap of what moved, m
+function deepest(world, moved) {
+    let least = 0;
+    reset();
+    const room = 64, at = temp(CONTACT * room);
+    for (let k = 0; k < moved.count; ++k) {
+        const n = Math.min(x.fe_body_get_contacts(world._w(), BigInt(moved.ids[k]), at, CONTACT, room), room);
+        for (let c = 0; c < n; ++c) {
+            const from = at + c * CONTACT, points = u32[(from + POINT_COUNT) >> 2];
+            for (let p = 0; p < points; ++p) least = Math.min(least, f32[(from + POINTS + p * POINT + SEPARATION) >> 2]);
+        }
+    }
+    return -least;
+}
+function widest(world) {
+    const joints = world.counters.joints;
+    if (!joints || joints > MOST_JOINTS) return 0;
+    let most = 0;
+    for (const joint of world.joints) {
+        u32[scratch >> 2] = JOINT_STATE;
+        if (x.fe_joint_get_state(world._w(), BigInt(joint), scratch) >= 0) most = Math.max(most, f32[(scratch + LINEAR_ERROR) >> 2]);
+    }
+    return most;
+}
+function numbers(world) {
+    const c = world.counters, e = world.energy, moved = world.getMoved(), p = world.getMomentum([0, 0, 0]).linear;
+    const list = [e.kinetic, e.potential, deepest(world, moved) * 1e3, widest(world) * 1e3, c.awakeBodies, c.contacts, Math.hypot(p.x, p.y, p.z), world.profile.step, world.hitEvents.length];
+    for (const pin of pins) list.push(readPin(world, pin));
+    return list;
+}
+function step() {
+    try {
+        return player.step();
+    } catch (error) {
+        if (error.code !== 'FE_ERROR_DIVERGED') throw error;
+        postMessage({ divergence: player.divergence });
+        return true;
+    }
+}
+function begin() {
+    const { info } = player;
+    if (!info.keyframes) return false;
+    player.seek(info.firstStep);
+    return true;
+}
+async function run() {
+    if (running || !player) return;
+    running = true;
+    const mine = generation;
+    let rows = [], steps = [], events = [], last = performance.now();
+    const send = (end) => {
+        if (steps.length || end) postMessage({ generation: mine, steps, rows, events, end, fed: fed.length });
+        rows = [], steps = [], events = [], last = performance.now();
+    };
+    const tell = () => {
+        const { world } = player, at = player.info.step;
+        steps.push(at), rows.push(...numbers(world));
+        for (const e of world.jointEvents) events.push([at, 'break', e.joint, e.bodyA, e.bodyB]);
+        for (const e of world.bodyEvents) events.push([at, e.kind, e.body]);
+        for (const e of world.hitEvents) events.push([at, 'hit', e.bodyA, e.bodyB, e.speed, e.impulse]);
+    };
+    try {
+        if (!begun) {
+            if (!begin()) { running = false; return; }
+            begun = true, tell();
+        }
+        for (;;) {
+            const more = step();
+            if (more) tell();
+            if (!more) { send(player.info.step); break; }
+            if (steps.length >= BATCH || performance.now() - last > MS) {
+                send();
+                await new Promise((go) => setTimeout(go));
+                if (mine !== generation) break;
+            }
+        }
+    } catch (error) {
+        dead = true;
+        postMessage({ error: error.message, end: player.info.step });
+    }
+    running = false;
+    if (mine !== generation && !dead) run();
+}
+function renew() {
+    player?.destroy();
+    player = new Player(), begun = false;
+    try {
+        for (const bytes of fed) player.feed(bytes);
+    } catch { /* the page has heard it from its own player */ }
+}
+async function hear(data) {
+    if (data.module) await Feather(data.module);
+    if (data.clear) fed.length = 0, pins = [], ++generation, dead = false, renew();
+    if (data.feed) {
+        fed.push(data.feed);
+        if (!player) renew();
+        else try { player.feed(data.feed); } catch { /* likewise */ }
+        run();
+    }
+    if (data.pins) pins = data.pins, ++generation, dead = false, renew(), run();
+}
+onmessage = ({ data }) => (queue = queue.then(() => hear(data))); // in their order, the module first
