@@ -68,10 +68,15 @@ SIMD_SETS := plain
 endif
 # The 387 computes in 80 bits and would give results of its own.
 MACHINE_FLAGS := $(if $(filter __i386__,$(MACROS)),-msse2 -mfpmath=sse)
+# Windows: gcc lays 32-byte vectors on a stack that is aligned to 16 (GCC bug 54412); unaligned moves, which cost the same, take them
+# from there. Programs end in .exe, and the library in .dll, whose exports the header marks.
+WINDOWS := $(filter _WIN32,$(MACROS))
+MACHINE_FLAGS += $(if $(WINDOWS),-DFE_SHARED -D__USE_MINGW_ANSI_STDIO=1 $(if $(filter __clang__,$(MACROS)),,-Wa$(comma)-muse-unaligned-vector-move))
+EXE := $(if $(WINDOWS),.exe)
 # An engine that lacks WebAssembly's SIMD refuses a module with any of it: then all of the code may have it.
 MACHINE_FLAGS += $(if $(filter __wasm__,$(MACROS)),$(if $(filter wasm,$(SIMD_SETS)),-msimd128))
 # WebAssembly has neither shared objects nor, as wasm32-wasi, threads: all runs on the caller.
-SHARING := $(if $(filter __wasm__,$(MACROS)),,-fPIC -pthread)
+SHARING := $(if $(filter __wasm__ _WIN32,$(MACROS)),,-fPIC -pthread)
 
 SIMD_plain := -DFE_W=4 -DFE_PLAIN_C
 SIMD_sse2 := -DFE_W=4 -msse2
@@ -92,7 +97,7 @@ STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off -fno-tree-slp-vectori
 DEFINES := -DFE_BUILD $(if $(filter plain,$(SIMD_SETS)),,-DFE_WITHOUT_PLAIN) $(if $(SANITIZE),,-DNDEBUG) $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
 C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden $(SHARING) $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
 CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
-LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) $(filter -pthread,$(SHARING))
+LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) $(filter -pthread,$(SHARING)) $(if $(WINDOWS),-static -lsynchronization)
 DEPENDENCIES = -MMD -MP -MF $(@:.o=).d
 
 # ---- the library ----------------------------------------------------------------------------------------------------------------
@@ -103,9 +108,9 @@ PLAIN_SOURCES := $(filter-out %.simd.c,$(SOURCES))
 OBJECTS := $(PLAIN_SOURCES:src/%.c=$(BUILD)/obj/%.o) \
            $(foreach set,$(SIMD_SETS),$(SIMD_SOURCES:src/%.simd.c=$(BUILD)/obj/%.$(set).o))
 
-SONAME := libfeather.so.1
+SONAME := $(if $(WINDOWS),feather.dll,libfeather.so.1)
 STATIC := $(BUILD)/libfeather.a
-SHARED := $(BUILD)/libfeather.so
+SHARED := $(BUILD)/$(if $(WINDOWS),libfeather.dll.a,libfeather.so)
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
 .PHONY: all static shared demo examples gallery tests check test test-long test-state fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
@@ -144,10 +149,17 @@ $(STATIC): $(OBJECTS) $(BUILD)/objects
 	@rm -f $@
 	$(RUN)$(AR) rcs $@ $(OBJECTS)
 
+ifeq ($(WINDOWS),)
 $(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/objects feather.map
 	$(RUN)$(CC) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=feather.map $(if $(SANITIZE),,-Wl,-z,defs) $(OBJECTS) $(LINK_FLAGS) -lm -o $@
 $(SHARED): $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
+else
+# The import library comes with it. Windows' own libraries only: what gcc brings is linked in.
+$(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/objects
+	$(RUN)$(CC) -shared -Wl,--out-implib,$(SHARED) $(OBJECTS) $(LINK_FLAGS) -o $@
+$(SHARED): $(BUILD)/$(SONAME)
+endif
 
 # ---- examples -------------------------------------------------------------------------------------------------------------------
 
@@ -156,19 +168,19 @@ PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell getconf _NPRO
 
 # examples/level.c reads its files with assimp. `make examples` leaves it out where there is none.
 WITHOUT_ASSIMP := $(shell pkg-config --exists assimp 2>/dev/null || echo examples/level.c)
-EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%,$(filter-out $(WITHOUT_ASSIMP),$(sort $(wildcard examples/*.c))))
+EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%$(EXE),$(filter-out $(WITHOUT_ASSIMP),$(sort $(wildcard examples/*.c))))
 
-$(BUILD)/feather-%: $(BUILD)/examples/%.o $(STATIC)
+$(BUILD)/feather-%$(EXE): $(BUILD)/examples/%.o $(STATIC)
 	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) $(READER) -lm -o $@
-$(BUILD)/feather-level: READER = $(shell pkg-config --libs assimp)
+$(BUILD)/feather-level$(EXE): READER = $(shell pkg-config --libs assimp)
 $(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
 
 examples: $(EXAMPLES)
 demo:
-	@+$(MAKE) --no-print-directory $(PARALLEL) $(BUILD)/feather-demo
-	@$(BUILD)/feather-demo
+	@+$(MAKE) --no-print-directory $(PARALLEL) $(BUILD)/feather-demo$(EXE)
+	@$(WINE) $(BUILD)/feather-demo$(EXE)
 
 # tools/picture: a program of its own below; its parts are tested
 PICTURE_OBJECTS := $(patsubst tools/picture/%.c,$(BUILD)/tools/picture/%.o,$(sort $(wildcard tools/picture/*.c)))
@@ -179,19 +191,19 @@ PICTURE_PARTS := $(filter-out %/main.o,$(PICTURE_OBJECTS))
 
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TEST_SUPPORT := $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/*.c tests/support/*.c)))
-TEST_PROGRAMS := $(TEST_SOURCES:tests/%.c=$(BUILD)/tests/%)
+TEST_PROGRAMS := $(TEST_SOURCES:tests/%.c=$(BUILD)/tests/%$(EXE))
 
 $(BUILD)/tests/%.o: tests/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(RUN)$(CC) $(C_FLAGS) -Itests $(STRICT) $(DEPENDENCIES) -c $< -o $@
-$(TEST_PROGRAMS): %: %.o $(TEST_SUPPORT) $(STATIC)
+$(TEST_PROGRAMS): %$(EXE): %.o $(TEST_SUPPORT) $(STATIC)
 	$(RUN)$(CC) $< $(TEST_SUPPORT) $(PARTS) $(STATIC) $(LINK_FLAGS) -lcmocka -lm -o $@
-$(BUILD)/tests/determinism/test_picture: PARTS = $(PICTURE_PARTS)
-$(BUILD)/tests/determinism/test_picture: $(PICTURE_PARTS)
+$(BUILD)/tests/determinism/test_picture$(EXE): PARTS = $(PICTURE_PARTS)
+$(BUILD)/tests/determinism/test_picture$(EXE): $(PICTURE_PARTS)
 
 # tests/determinism/aarch64 builds it for another machine
 GOLDEN_OBJECTS := $(BUILD)/tests/determinism/print_golden.o $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/support/play*.c)))
-$(BUILD)/feather-golden: $(GOLDEN_OBJECTS) $(STATIC)
+$(BUILD)/feather-golden$(EXE): $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 tests: $(TEST_PROGRAMS)
@@ -275,10 +287,10 @@ proof-check:
 $(BUILD)/tools/%.o: tools/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(RUN)$(CC) $(C_FLAGS) $(SIMD_OPT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
-$(BUILD)/feather-picture: $(PICTURE_OBJECTS) $(STATIC)
+$(BUILD)/feather-picture$(EXE): $(PICTURE_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(PICTURE_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
-gallery: $(BUILD)/feather-picture
+gallery: $(BUILD)/feather-picture$(EXE)
 	@mkdir -p docs/images
 	@for scene in $$($< --list); do echo "  docs/images/$$scene.png"; $< $$scene docs/images/$$scene.png || exit 1; done
 	@$< --page > docs/gallery.html

@@ -91,6 +91,13 @@ missing_for_aarch64() {
     has qemu-aarch64 || echo qemu-user
 }
 
+# Another system, by a stand-in for it; likewise
+missing_for_windows() {
+    test "$(uname -m)" = x86_64 || return
+    has x86_64-w64-mingw32-gcc || echo gcc-mingw-w64-x86-64-posix
+    has wine || echo wine wine64
+}
+
 # 32 bits, and big-endian; likewise
 missing_for_foreign() {
     test "$(uname -m)" = x86_64 || return
@@ -112,7 +119,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_windows; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

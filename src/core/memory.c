@@ -2,9 +2,9 @@
 // never by workers. A store calls it under its lock.
 #include "core/memory.h"
 
+#include "core/aligned.h"
 #include "core/mutex.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -15,18 +15,16 @@ enum {
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
 };
 
-// aligned_alloc wants a multiple of the alignment
 static void *default_allocate(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
-    if (size > SIZE_MAX - alignment) return NULL;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return size > SIZE_MAX ? NULL : fe__aligned_allocate((size_t)size, (size_t)alignment);
 }
 
 static void default_release(void *user, void *block, uint64_t size)
 {
     (void)user, (void)size;
-    free(block);
+    fe__aligned_free(block);
 }
 
 void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)

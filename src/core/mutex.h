@@ -4,7 +4,13 @@
 #ifndef FE_CORE_MUTEX_H
 #define FE_CORE_MUTEX_H
 
-#if !defined(__wasm__) || defined(_REENTRANT)
+#if defined(_WIN32)
+#define FE_HAS_THREADS 1
+#define FE_MUTEX_INITIAL \
+    {                    \
+        0                \
+    }
+#elif !defined(__wasm__) || defined(_REENTRANT)
 #define FE_HAS_THREADS 1
 #include <pthread.h>
 #define FE_MUTEX_INITIAL          \
@@ -20,7 +26,9 @@
 #endif
 
 typedef struct fe__mutex {
-#if FE_HAS_THREADS
+#if defined(_WIN32)
+    void *handle; // an SRWLOCK, whose header would bring its macros everywhere
+#elif FE_HAS_THREADS
     pthread_mutex_t handle;
 #else
     int unused;

@@ -1,9 +1,8 @@
 // owner.c - the slots of the threads that read. See owner.h.
 #include "core/owner.h"
 
-#include "core/mutex.h"
-
-#include <stdlib.h>
+#include "core/aligned.h"
+#include "core/os_thread.h"
 
 // Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread
 // that ends gives its slot to the next one.
@@ -33,23 +32,16 @@ static fe__reader *take_free(void)
     return NULL;
 }
 
-enum { CACHE_LINE = 64, SLOT_SIZE = (sizeof(fe__reader) + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE };
+enum { CACHE_LINE = 64, SLOT_SIZE = sizeof(fe__reader) };
 
 static fe__reader *make(void)
 {
-    fe__reader *r = aligned_alloc(CACHE_LINE, SLOT_SIZE);
+    fe__reader *r = fe__aligned_allocate(SLOT_SIZE, CACHE_LINE);
     if (!r) return NULL;
     *r = (fe__reader){.taken = 1, .next = atomic_load_explicit(&readers, memory_order_relaxed)};
     while (!atomic_compare_exchange_weak_explicit(&readers, &r->next, r, memory_order_seq_cst, memory_order_relaxed)) {}
     return r;
 }
-
-#if FE_HAS_THREADS
-// A thread's end returns its slot. The key goes with the library: no thread that outlives it calls into memory that is
-// gone.
-static pthread_key_t at_exit;
-static int has_key;
-static pthread_once_t once = PTHREAD_ONCE_INIT;
 
 static void give_back(void *slot)
 {
@@ -68,38 +60,24 @@ static void forget_others(void)
     }
 }
 
-static void prepare(void)
-{
-    has_key = pthread_key_create(&at_exit, give_back) == 0;
-    (void)pthread_atfork(NULL, NULL, forget_others);
-}
-
+// No thread that outlives the library calls into memory that is gone.
 __attribute__((destructor)) static void end(void)
 {
-    if (has_key) (void)pthread_key_delete(at_exit);
-    has_key = 0;
+    fe__os_forget_thread_ends();
     for (fe__reader *r = atomic_exchange_explicit(&readers, NULL, memory_order_acquire), *next; r; r = next) {
         next = r->next;
-        free(r);
+        fe__aligned_free(r);
     }
     own = NULL;
 }
 
-static void begin_thread(fe__reader *r)
-{
-    (void)pthread_once(&once, prepare);
-    if (has_key) (void)pthread_setspecific(at_exit, r);
-}
-#else
-static void begin_thread(fe__reader *r) { (void)r; }
-#endif
-
 static fe__reader *first_of_thread(void)
 {
+    static const fe__end_calls calls = {give_back, forget_others};
     fe__reader *r = take_free();
     if (!r) r = make();
     if (!r) return NULL;
-    begin_thread(r);
+    fe__os_at_thread_end(&calls, r);
     own = r;
     return r;
 }

@@ -1,5 +1,4 @@
-// threads.c - see threads.h. Posix threads and C11 atomics; sleeping is a futex on Linux, a condition variable
-// elsewhere.
+// threads.c - see threads.h. The system's threads (os_thread.h) and C11 atomics.
 //
 // A run takes one of the pool's slots, says how many tasks it has, and raises its bit in `open`. Whoever sees the bit,
 // the caller first of all, claims tasks by counting `unclaimed` down, and counts `unfinished` down when one has
@@ -7,33 +6,19 @@
 // tasks, and until that task is finished the slot cannot change hands: so a worker that comes late to a slot that was
 // given away meanwhile claims a task of the new run, or nothing, and either is right. No run allocates. When all slots
 // are taken, or from inside a task, the caller does its run alone.
-#if defined(__linux__)
-#define _GNU_SOURCE // sched_getaffinity
-#endif
 #include "core/threads.h"
 
 #include "core/clock.h"
 #include "core/fp_state.h"
 #include "core/memory.h"
+#include "core/os_thread.h"
 #include "core/registry.h"
-
-#include <sched.h>
-#include <unistd.h>
-
-#if FE_HAS_THREADS
-#include <signal.h>
-#endif
-#if defined(__linux__)
-#include <linux/futex.h>
-#include <sys/syscall.h>
-#endif
 
 enum {
     SLOTS = 32,           // bits of fe_pool.open
     PAUSES_PER_LOOK = 16, // spins between two looks at the clock
     WAKE_AT_ONCE =
         2, // sleepers; each of them wakes two more while there is work, so that the caller does not pay for all
-    STACK_SIZE = 1024 * 1024, // bytes of a thread: libraries' own sizes differ by a factor of 60
 };
 
 // Waking a sleeping thread takes some 50 us: spinning for less than that costs little more than it can save. During a
@@ -67,17 +52,14 @@ struct fe_pool {
     int32_t started;      // of these; fewer only while the pool is created
     _Atomic int32_t core_count;
     fe__entry entry; // in the registry, which counts the worlds
-#if FE_HAS_THREADS
-    pthread_t threads[FE_MAX_WORKERS - 1];
-    pthread_mutex_t mutex; // where there is no futex
-    pthread_cond_t changed;
-#endif
+    fe__os_thread threads[FE_MAX_WORKERS - 1];
+    fe__sleep_place place; // of workers and callers
 };
 
 static _Thread_local int inside_task;
 static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
-// ---- pausing, yielding, sleeping -----------------------------------------------------------------------------------
+// ---- pausing, yielding -----------------------------------------------------------------------------------
 
 void fe__pause(void)
 {
@@ -88,38 +70,7 @@ void fe__pause(void)
 #endif
 }
 
-void fe__yield(void) { sched_yield(); }
-
-// Returns when the word may have changed from `value`, at once if it has.
-static void sleep_while(fe_pool *pool, _Atomic uint32_t *word, uint32_t value)
-{
-#if defined(__linux__)
-    (void)pool;
-    syscall(SYS_futex, word, FUTEX_WAIT_PRIVATE, value, NULL, NULL, 0);
-#elif FE_HAS_THREADS
-    pthread_mutex_lock(&pool->mutex);
-    if (atomic_load(word) == value) pthread_cond_wait(&pool->changed, &pool->mutex);
-    pthread_mutex_unlock(&pool->mutex);
-#else
-    (void)pool, (void)word, (void)value;
-#endif
-}
-
-// After the word has changed.
-static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
-{
-#if defined(__linux__)
-    (void)pool;
-    syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, count, NULL, NULL, 0);
-#elif FE_HAS_THREADS
-    (void)word, (void)count; // one condition for all words: who was not meant sleeps on
-    pthread_mutex_lock(&pool->mutex);
-    pthread_cond_broadcast(&pool->changed);
-    pthread_mutex_unlock(&pool->mutex);
-#else
-    (void)pool, (void)word, (void)count;
-#endif
-}
+void fe__yield(void) { fe__os_yield(); }
 
 // ---- spinning ------------------------------------------------------------------------------------------------------
 
@@ -183,7 +134,7 @@ static void finish(fe_pool *pool, run_slot *slot)
     // one of us notices. It may have gone on, and the slot be another's, by the time we look: then somebody is woken in
     // vain.
     if (atomic_fetch_sub(&slot->unfinished, 1) == 1 && atomic_load(&slot->caller_sleeps))
-        wake(pool, &slot->unfinished, 1);
+        fe__os_wake(&pool->place, &slot->unfinished, 1);
 }
 
 static void close_slot(fe_pool *pool, int32_t s)
@@ -219,12 +170,11 @@ static void call_helpers(fe_pool *pool, int32_t tasks)
         if (count <= 0) return;
     } while (!atomic_compare_exchange_weak(&pool->sleeping, &sleeping, sleeping - count));
     atomic_fetch_add(&pool->calls, (uint32_t)count);
-    wake(pool, &pool->calls, count);
+    fe__os_wake(&pool->place, &pool->calls, count);
 }
 
 // ---- workers -------------------------------------------------------------------------------------------------------
 
-#if FE_HAS_THREADS
 static int has_news(fe_pool *pool) { return atomic_load(&pool->open) != 0 || atomic_load(&pool->stopping) != 0; }
 
 // Off the list of sleepers, unless somebody has called just now: that call is ours to take.
@@ -247,7 +197,7 @@ static void sleep_until_called(fe_pool *pool)
         while (calls > 0) {
             if (atomic_compare_exchange_weak(&pool->calls, &calls, calls - 1)) return;
         }
-        sleep_while(pool, &pool->calls, 0);
+        fe__os_sleep_while(&pool->place, &pool->calls, 0);
     }
 }
 
@@ -268,7 +218,7 @@ static void wait_for_work(fe_pool *pool)
     if (!spins) sleep_until_called(pool);
 }
 
-static void *work(void *argument)
+static void work(void *argument)
 {
     fe_pool *pool = argument;
     int32_t last = SLOTS - 1;
@@ -282,9 +232,7 @@ static void *work(void *argument)
         call_helpers(pool, atomic_load_explicit(&pool->slots[last].unclaimed, memory_order_relaxed) - 1);
         work_on(pool, last);
     }
-    return NULL;
 }
-#endif
 
 // ---- runs ----------------------------------------------------------------------------------------------------------
 
@@ -308,7 +256,7 @@ static void await_finish(fe_pool *pool, run_slot *slot)
         if (spin(pool, &spinner)) continue;
         atomic_store(&slot->caller_sleeps, 1);
         for (uint32_t left = atomic_load(&slot->unfinished); left > 0; left = atomic_load(&slot->unfinished)) {
-            sleep_while(pool, &slot->unfinished, left);
+            fe__os_sleep_while(&pool->place, &slot->unfinished, left);
         }
         atomic_store_explicit(&slot->caller_sleeps, 0, memory_order_relaxed);
     }
@@ -350,57 +298,26 @@ void fe__pool_end(fe_pool *pool)
 
 // ---- a pool's life -------------------------------------------------------------------------------------------------
 
-#if FE_HAS_THREADS
-static int32_t count_cores(void)
-{
-#if defined(__linux__)
-    cpu_set_t set; // a host may keep the process off some
-    if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
-#endif
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : (int32_t)count;
-}
-
 static void join_threads(fe_pool *pool)
 {
     atomic_store(&pool->stopping, 1);
     atomic_fetch_add(&pool->calls, (uint32_t)pool->thread_count);
-    wake(pool, &pool->calls, pool->thread_count);
-    for (int32_t i = 0; i < pool->started; ++i) pthread_join(pool->threads[i], NULL);
-    pthread_cond_destroy(&pool->changed);
-    pthread_mutex_destroy(&pool->mutex);
+    fe__os_wake(&pool->place, &pool->calls, pool->thread_count);
+    for (int32_t i = 0; i < pool->started; ++i) fe__os_thread_join(&pool->threads[i]);
+    fe__sleep_place_free(&pool->place);
 }
 
-// Signals are the host's: its handlers run on its own threads.
 static int start_threads(fe_pool *pool)
 {
-    pthread_attr_t attributes;
-    sigset_t all, before;
-    pool->thread_count = pool->worker_count - 1;
-    atomic_store(&pool->core_count, count_cores());
-    pthread_mutex_init(&pool->mutex, NULL);
-    pthread_cond_init(&pool->changed, NULL);
-    if (pthread_attr_init(&attributes) != 0) return 0;
-    pthread_attr_setstacksize(&attributes, STACK_SIZE);
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pool->thread_count = FE_HAS_THREADS ? pool->worker_count - 1 : 0;
+    atomic_store(&pool->core_count, fe__os_core_count());
+    fe__sleep_place_init(&pool->place);
     while (pool->started < pool->thread_count) {
-        if (pthread_create(&pool->threads[pool->started], &attributes, work, pool) != 0) break;
+        if (!fe__os_thread_start(&pool->threads[pool->started], work, pool)) break;
         pool->started += 1;
     }
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    pthread_attr_destroy(&attributes);
     return pool->started == pool->thread_count;
 }
-#else
-static void join_threads(fe_pool *pool) { (void)pool; }
-
-static int start_threads(fe_pool *pool)
-{
-    (void)pool;
-    return 1;
-}
-#endif
 
 fe_pool *fe__pool_create(int32_t worker_count)
 {

@@ -1,5 +1,6 @@
 // The API of worlds: definitions, settings, the step and who may call during one, memory that runs out.
 #include "api/api_test.h"
+#include "core/aligned.h"
 
 #include <fenv.h>
 #include <stdlib.h>
@@ -30,13 +31,13 @@ static void defaults_are_those_of_the_header(void **state)
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return fe__aligned_allocate((size_t)size, (size_t)alignment);
 }
 
 static void give_back(void *user, void *memory, uint64_t size)
 {
     (void)user, (void)size;
-    free(memory);
+    fe__aligned_free(memory);
 }
 
 static void run_here(void *user, fe_task task, void *argument, int32_t count)

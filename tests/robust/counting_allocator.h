@@ -2,6 +2,7 @@
 // fails when it is told to.
 #ifndef FE_TESTS_COUNTING_ALLOCATOR_H
 #define FE_TESTS_COUNTING_ALLOCATOR_H
+#include "core/aligned.h"
 #include "fe_test.h"
 #include "feather.h"
 
@@ -38,8 +39,7 @@ static void *counting_allocate(void *user, uint64_t size, uint64_t alignment)
         c->failures += 1;
         return NULL;
     }
-    unsigned char *memory =
-        aligned_alloc((size_t)alignment, (size_t)((size + COUNTING_GUARD + 2 * alignment - 1) / alignment * alignment));
+    unsigned char *memory = fe__aligned_allocate((size_t)(size + COUNTING_GUARD + alignment), (size_t)alignment);
     if (!memory) return NULL;
     memcpy(memory, &size, sizeof size);
     memset(memory + alignment, 0xA5, (size_t)size); // nobody may count on zeros
@@ -64,7 +64,7 @@ static void counting_release(void *user, void *block, uint64_t size)
     if (!whole) c->wrong += 1;
     c->blocks -= 1;
     c->bytes -= (int64_t)size;
-    free(memory);
+    fe__aligned_free(memory);
 }
 
 static inline fe_allocator counting_allocator(counting *c)

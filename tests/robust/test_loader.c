@@ -3,6 +3,7 @@
 // For ThreadSanitizer above all: a step takes no lock, and what the loader writes is nothing that a step reads. What
 // the worlds compute must not show that there was a loader.
 #include "api/api_test.h"
+#include "core/aligned.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -219,7 +220,7 @@ static void *allocate(void *user, uint64_t size, uint64_t alignment)
     unguarded *u = user;
     u->clashes += atomic_fetch_add(&u->inside, 1) != 0;
     sched_yield(); // time for another thread to come in
-    void *block = aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    void *block = fe__aligned_allocate((size_t)size, (size_t)alignment);
     u->blocks += block != NULL;
     atomic_fetch_sub(&u->inside, 1);
     return block;
@@ -230,7 +231,7 @@ static void release(void *user, void *block, uint64_t size)
     (void)size;
     unguarded *u = user;
     u->clashes += atomic_fetch_add(&u->inside, 1) != 0;
-    free(block);
+    fe__aligned_free(block);
     u->blocks -= 1;
     atomic_fetch_sub(&u->inside, 1);
 }

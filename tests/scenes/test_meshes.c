@@ -1,5 +1,6 @@
 // Meshes carry what rests, slides, rolls and falls on them as a plane does; edges that are not there are not felt, and
 // nothing passes.
+#include "core/aligned.h"
 #include "scenes/meshes.h"
 
 #include <string.h>
@@ -206,12 +207,12 @@ static void *count_allocation(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
     ++allocations;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return fe__aligned_allocate(size, alignment);
 }
 static void release(void *user, void *memory, uint64_t size)
 {
     (void)user, (void)size;
-    free(memory);
+    fe__aligned_free(memory);
 }
 
 static void steps_on_a_mesh_allocate_nothing(void **state)

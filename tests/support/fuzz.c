@@ -2,6 +2,7 @@
 //
 // What must always hold: nothing crashes; a call that returns an error has changed nothing; an accepted call leaves
 // numbers only; a call that found no memory can be repeated; the fingerprint can be computed.
+#include "core/aligned.h"
 #include "support/fuzz_state.h"
 
 #include <math.h>
@@ -221,7 +222,7 @@ static void *allocate(void *user, uint64_t size, uint64_t alignment)
     fuzz *f = user;
     if (fails(f)) return NULL;
     f->blocks += 1;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return fe__aligned_allocate((size_t)size, (size_t)alignment);
 }
 
 static void release(void *user, void *memory, uint64_t size)
@@ -229,7 +230,7 @@ static void release(void *user, void *memory, uint64_t size)
     fuzz *f = user;
     (void)size;
     f->blocks -= 1;
-    free(memory);
+    fe__aligned_free(memory);
 }
 
 fe_result fuzz_step(fuzz *f, float dt)

@@ -2,6 +2,7 @@
 #ifndef FE_TESTS_HULL_MAKE_H
 #define FE_TESTS_HULL_MAKE_H
 #include "collision/hull_build/build.h"
+#include "core/aligned.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ typedef struct made_hull {
 static inline void *made_memory(int64_t size)
 {
     size_t whole = (size_t)(size + 63) / 64 * 64;
-    void *memory = aligned_alloc(64, whole);
+    void *memory = fe__aligned_allocate(whole, 64);
     if (!memory) abort();
     memset(memory, 0, whole);
     return memory;
@@ -33,13 +34,13 @@ static inline int32_t make_hull(const float *points, int32_t count, int32_t most
         fe__hull_write(room, made_memory(fe__hull_block_size(room)), &out->hull);
         out->is_capped = room->surface.vertex_count >= most_vertices;
     }
-    free(room);
+    fe__aligned_free(room);
     return is_made;
 }
 
 static inline void free_hull(made_hull *made)
 {
-    free(made->hull.block);
+    fe__aligned_free(made->hull.block);
     made->hull.block = NULL;
 }
 

@@ -3,6 +3,7 @@
 #define FE_TESTS_MESH_MAKE_H
 #include "collision/cast/mesh_ray.h"
 #include "collision/mesh_build/build.h"
+#include "core/aligned.h"
 #include "solver/solver.h"
 
 #include <stdlib.h>
@@ -23,7 +24,7 @@ typedef struct made_mesh {
 static inline void *mesh_memory(int64_t size)
 {
     size_t whole = (size_t)(size + 63) / 64 * 64;
-    void *memory = aligned_alloc(64, whole);
+    void *memory = fe__aligned_allocate(whole, 64);
     if (!memory) abort();
     memset(memory, 0, whole);
     return memory;
@@ -48,13 +49,13 @@ static inline int32_t make_mesh_of(const fe__mesh_source *source, made_mesh *out
     fe__mesh_builder *room = mesh_memory(out->room);
     void *scratch = mesh_memory(out->scratch);
     int32_t is_made = fe__mesh_build(room, scratch, source);
-    free(scratch);
+    fe__aligned_free(scratch);
     out->refusal = room->refusal;
     if (is_made) {
         int64_t size = fe__mesh_block_size(room);
         fe__mesh_write(room, mesh_memory(size), &out->mesh);
     }
-    free(room);
+    fe__aligned_free(room);
     return is_made;
 }
 
@@ -85,7 +86,7 @@ static inline int32_t make_mesh(const soup *s, made_mesh *out)
 
 static inline void free_mesh(made_mesh *made)
 {
-    free(made->mesh.block);
+    fe__aligned_free(made->mesh.block);
     made->mesh.block = NULL;
 }
 

@@ -1,6 +1,7 @@
 // The allocator is counted, hands out zeroed aligned blocks, and loses nothing when it fails.
 #include "fe_test.h"
 
+#include "core/aligned.h"
 #include "core/memory.h"
 
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static void *host_allocate(void *user, uint64_t size, uint64_t alignment)
     host *h = user;
     h->last_size = size, h->last_alignment = alignment;
     if (h->refuses) return NULL;
-    void *block = aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    void *block = fe__aligned_allocate((size_t)size, (size_t)alignment);
     assert_non_null(block);
     memset(block, 0xA5, (size_t)size);
     h->live_bytes += (int64_t)size;
@@ -31,7 +32,7 @@ static void host_release(void *user, void *block, uint64_t size)
 {
     host *h = user;
     h->live_bytes -= (int64_t)size;
-    free(block);
+    fe__aligned_free(block);
 }
 
 static fe__memory memory_of(host *h)

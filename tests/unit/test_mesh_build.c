@@ -1,4 +1,5 @@
 // The builder of meshes: welding, what is dropped, edges, the tree's invariants, numbers, and the API of the asset.
+#include "core/aligned.h"
 #include "core/hash.h"
 #include "fe_test.h"
 #include "support/mesh_make.h"
@@ -542,13 +543,12 @@ static int32_t allowed;
 static void *allocate_some(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
-    return allowed-- > 0 ? aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment))
-                         : NULL;
+    return allowed-- > 0 ? fe__aligned_allocate((size_t)size, (size_t)alignment) : NULL;
 }
 static void release_some(void *user, void *memory, uint64_t size)
 {
     (void)user, (void)size;
-    free(memory);
+    fe__aligned_free(memory);
 }
 
 static void no_memory_loses_nothing(void **state)

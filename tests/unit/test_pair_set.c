@@ -2,6 +2,7 @@
 #include "fe_test.h"
 
 #include "broadphase/pair_set.h"
+#include "core/aligned.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,13 +25,13 @@ static void *host_allocate(void *user, uint64_t size, uint64_t alignment)
 {
     FE_TRUE(size <= (UINT64_C(1) << 30) * sizeof(fe__pair_entry)); // what an int32_t counts
     if (((host *)user)->refuses) return NULL;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return fe__aligned_allocate((size_t)size, (size_t)alignment);
 }
 
 static void host_release(void *user, void *block, uint64_t size)
 {
     (void)user, (void)size;
-    free(block);
+    fe__aligned_free(block);
 }
 
 static fe__memory memory_of(host *h)

@@ -36,7 +36,7 @@ static int32_t scale_hull(const fe__hull *hull, fe_vec3 scale, made_hull *out)
     memset(out, 0, sizeof *out);
     void *block = made_memory(fe__hull_scaled_size(hull, scale));
     int32_t is_made = fe__hull_write_scaled(hull, scale, block, &out->hull, &out->refusal);
-    if (!is_made) free(block);
+    if (!is_made) fe__aligned_free(block);
     return is_made;
 }
 

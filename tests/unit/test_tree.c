@@ -2,6 +2,7 @@
 #include "fe_test.h"
 
 #include "broadphase/tree.h"
+#include "core/aligned.h"
 #include "solver/solver.h"
 
 #include <float.h>
@@ -804,13 +805,13 @@ static void *host_allocate(void *user, uint64_t size, uint64_t alignment)
         return NULL;
     }
     h->allowed -= 1;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return fe__aligned_allocate((size_t)size, (size_t)alignment);
 }
 
 static void host_release(void *user, void *block, uint64_t size)
 {
     (void)user, (void)size;
-    free(block);
+    fe__aligned_free(block);
 }
 
 static fe__memory memory_of(host *h)
