@@ -5,6 +5,7 @@
 #   make check      what a change is tried with first: builds, and asks the fast tests, in under two minutes on 2 cores
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
 #   make test-long  in an hour and a half: 30 minutes of fuzz, the random tests with their full numbers (LONG=pattern)
+#   make test-state what of that is about snapshots: 1000 random moments of 100 random scenes, 90 000 altered snapshots
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets,
 #                   with clang's libFuzzer and sanitizers
@@ -107,7 +108,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples gallery tests check test test-long fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples gallery tests check test test-long test-state fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -194,11 +195,11 @@ $(BUILD)/feather-golden: $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 tests: $(TEST_PROGRAMS)
-check test test-long: export MAKE := $(MAKE)
-check test test-long: export CC := $(CC)
-check test test-long: export CXX := $(CXX)
-check test test-long: export CFLAGS := $(CFLAGS)
-check test test-long: export LDFLAGS := $(LDFLAGS)
+check test test-long test-state: export MAKE := $(MAKE)
+check test test-long test-state: export CC := $(CC)
+check test test-long test-state: export CXX := $(CXX)
+check test test-long test-state: export CFLAGS := $(CFLAGS)
+check test test-long test-state: export LDFLAGS := $(LDFLAGS)
 check:
 	@tools/deps.sh check
 	@+tests/check $(BUILD)
@@ -208,6 +209,8 @@ test:
 test-long:
 	@tools/deps.sh all
 	@+tests/long '$(LONG)'
+test-state:
+	@+tests/long '^state/'
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz, or -cooked, again.

@@ -28,6 +28,17 @@ FE_RECORD(fe_compound_part)
 FE_RECORD(fe_draw_options)
 FE_RECORD(fe_save_options)
 FE_RECORD(fe_restore_options)
+// The bytes belong to the caller, who keeps them until the call that reads the record.
+%define FE_BASE(TYPE)
+%ignore TYPE::base;
+%ignore TYPE::base_size;
+%extend TYPE {
+    /// The snapshot that a difference is to.
+    void set_base(const void *bytes, int64_t size) { $self->base = bytes, $self->base_size = size; }
+}
+%enddef
+FE_BASE(fe_save_options)
+FE_BASE(fe_restore_options)
 FE_RECORD(fe_history_def)
 FE_RECORD(fe_recorder_def)
 FE_RECORD(fe_player_def)

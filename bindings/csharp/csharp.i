@@ -12,6 +12,8 @@
 %rename("$ignore", %$isclass) "";
 %rename("$ignore", %$isenum) "";
 %rename("$ignore", %$isenumitem) "";
+%warnfilter(314) fe_restore_options::base; // a word of C#: the record is made by records.py
+%warnfilter(314) fe_save_options::base; // a word of C#: the record is made by records.py
 
 %typemap(ctype)  SWIGTYPE *, SWIGTYPE **, const char * "void *"
 %typemap(imtype) SWIGTYPE *, SWIGTYPE **, const char * "void*"

@@ -143,6 +143,7 @@ const LISTS = {
 };
 const counted = new Set(Object.entries(LISTS).filter(([, l]) => l[1]).map(([k, l]) => k.split('.')[0] + '.' + l[1]));
 counted.add('fe_restore_options.asset_count');
+for (const r of ['fe_save_options', 'fe_restore_options']) counted.add(`${r}.base_size`); // differences to a base are left out
 const laidOut = (r, f) => /_stride$|^index_type$/.test(f.name) || counted.has(r.name + '.' + f.name);
 // What lies deeper, by a shorter name
 const ALIASES = {

@@ -523,6 +523,8 @@ FE_RECORDS(const fe_compound_part *parts, "parts: parts of a compound")
         arg3 = PyBytes_AS_STRING(saved3);
         arg4 = result;
         $action
+        // a difference is smaller than its bound
+        if (result > 0 && result < arg4 && _PyBytes_Resize(&saved3, (Py_ssize_t)result)) SWIG_fail;
     }
 }
 %enddef

@@ -182,9 +182,10 @@ typedef struct fe__fields {
     FIELD(translation) FIELD(linear_velocity) FIELD(length) FIELD(speed) FIELD(linear_error) FIELD(angular_error)
 #define FE_FIELDS_fe_query_filter(FIELD) \
     FIELD(struct_size) FIELD(mask) FIELD(flags) FIELD(excluded_count) FIELD(excluded)
-#define FE_FIELDS_fe_save_options(FIELD) FIELD(struct_size) FIELD(flags)
+#define FE_FIELDS_fe_save_options(FIELD) FIELD(struct_size) FIELD(flags) FIELD(base) FIELD(base_size)
 #define FE_FIELDS_fe_restore_options(FIELD) \
-    FIELD(struct_size) FIELD(new_number) FIELD(asset_count) FIELD(reserved) FIELD(keys) FIELD(assets)
+    FIELD(struct_size)                      \
+    FIELD(new_number) FIELD(asset_count) FIELD(reserved) FIELD(keys) FIELD(assets) FIELD(base) FIELD(base_size)
 #define FE_FIELDS_fe_difference(FIELD) \
     FIELD(struct_size)                 \
     FIELD(index) FIELD(element) FIELD(reserved) FIELD(handle) FIELD(other) FIELD(kind) FIELD(field) FIELD(a) FIELD(b)

@@ -5,6 +5,7 @@
 #include "api/world.h"
 #include "core/fp_state.h"
 #include "state/compare.h"
+#include "state/delta.h"
 #include "state/restore.h"
 #include "state/write.h"
 #include "store/asset_bytes.h"
@@ -37,19 +38,45 @@ fe_result fe_asset_get_key(const fe_store *store, fe_asset asset, fe_asset_key *
 
 // ---- saving --------------------------------------------------------------------------------------------------------
 
+static fe_result read_save_options(const char *function, const fe_save_options *options, fe_save_options *full)
+{
+    *full = (fe_save_options){.struct_size = sizeof *full};
+    if (options) FE_READ_STRUCT(options, full);
+    FE_CHECK_BITS(full->flags, FE_SAVE_ASSETS | FE_SAVE_DIFF);
+    if (!(full->flags & FE_SAVE_DIFF)) return FE_OK;
+    FE_CHECK_POINTER(full->base);
+    FE_CHECK_INT(full->base_size, 0, INT64_MAX);
+    return FE_OK;
+}
+
+// Under the store's lock; base: NULL, or of what to write the difference. A whole snapshot may be smaller
+static int64_t save(const fe_world *world, int32_t with_assets, const fe__snapshot *base, unsigned char *out,
+                    int64_t capacity)
+{
+    int64_t size = fe__snapshot_size(world, with_assets), room = base ? fe__delta_room(size) : size;
+    if (room > capacity) return room;
+    fe__snapshot_write(world, with_assets, out + (room - size));
+    if (!base) return size;
+    int64_t written = fe__delta_write(out, size, base);
+    if (written) return written;
+    fe__snapshot_write(world, with_assets, out);
+    return size;
+}
+
 int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity)
 {
     FE_READ(world);
+    fe_save_options full;
+    fe__snapshot base;
     FE_CHECK_INT(capacity, 0, INT64_MAX);
     if (capacity > 0) FE_CHECK_POINTER(out);
-    fe_save_options full = {.struct_size = sizeof full};
-    if (options) FE_READ_STRUCT(options, &full);
-    FE_CHECK_BITS(full.flags, FE_SAVE_ASSETS);
-    int32_t with_assets = (full.flags & FE_SAVE_ASSETS) != 0;
+    FE_TRY(read_save_options(function, options, &full));
+    int32_t with_assets = (full.flags & FE_SAVE_ASSETS) != 0, is_diff = (full.flags & FE_SAVE_DIFF) != 0;
+    if (is_diff && !fe__snapshot_outline(&base, full.base, full.base_size))
+        return fe__fail(function, base.result, "base: %s", base.sentence);
     fe__store_lock(world->store);
     int32_t refused = with_assets && fe__snapshot_has_compounds(world);
-    int64_t size = refused ? 0 : fe__snapshot_size(world, with_assets);
-    if (!refused && size <= capacity) fe__snapshot_write(world, with_assets, out);
+    int64_t size = refused ? 0 : save(world, with_assets, is_diff ? &base : NULL, out, capacity);
     fe__store_unlock(world->store);
     if (refused)
         return fe__fail(function, FE_ERROR_UNSUPPORTED,
@@ -188,6 +215,7 @@ static fe_result read_options(const char *function, const fe_restore_options *op
     FE_CHECK_ARRAY(full->keys, full->asset_count);
     FE_CHECK_ARRAY(full->assets, full->asset_count);
     FE_CHECK_INT(full->reserved, 0, 0);
+    FE_CHECK_INT(full->base_size, 0, INT64_MAX);
     return FE_OK;
 }
 
@@ -225,17 +253,39 @@ static fe_result open_bytes(const char *function, const void *bytes, int64_t siz
     return fe__fail(function, snapshot->result, "%s", snapshot->sentence);
 }
 
+static fe_result restore_whole(const char *function, fe_world *world, const fe_restore_options *options,
+                               const void *bytes, int64_t size)
+{
+    fe__snapshot snapshot;
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = open_bytes(function, bytes, size, &snapshot);
+    if (result == FE_OK) result = restore_opened(function, world, options, &snapshot);
+    fe__fp_leave(fp);
+    return result;
+}
+
+static fe_result restore_diff(const char *function, fe_world *world, const fe_restore_options *options,
+                              const void *bytes, int64_t size)
+{
+    fe__snapshot refusal = {.result = FE_OK};
+    int64_t whole_size = fe__delta_open(&refusal, bytes, size, options->base, options->base_size);
+    if (!whole_size) return fe__fail(function, refusal.result, "%s", refusal.sentence);
+    unsigned char *whole = fe__allocate_scratch(&world->memory, (size_t)whole_size);
+    if (!whole) return fe__report(function, FE_ERROR_MEMORY);
+    fe_result result = fe__delta_apply(&refusal, bytes, size, options->base, options->base_size, whole, whole_size)
+                           ? restore_whole(function, world, options, whole, whole_size)
+                           : fe__fail(function, refusal.result, "%s", refusal.sentence);
+    fe__release(&world->memory, whole, (size_t)whole_size);
+    return result;
+}
+
 static fe_result restore(const char *function, fe_world *world, const fe_restore_options *options, const void *bytes,
                          int64_t size)
 {
     fe_restore_options full;
-    fe__snapshot snapshot;
     FE_TRY(read_options(function, options, &full));
-    fe__fp_state fp = fe__fp_enter();
-    fe_result result = open_bytes(function, bytes, size, &snapshot);
-    if (result == FE_OK) result = restore_opened(function, world, &full, &snapshot);
-    fe__fp_leave(fp);
-    return result;
+    if (bytes && fe__is_delta(bytes, size)) return restore_diff(function, world, &full, bytes, size);
+    return restore_whole(function, world, &full, bytes, size);
 }
 
 fe_result fe_world_restore(fe_world *world, const fe_restore_options *options, const void *bytes, int64_t size)

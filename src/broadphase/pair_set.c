@@ -54,6 +54,15 @@ void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value)
     set->count += 1;
 }
 
+int32_t fe__pair_set_add(fe__pair_set *set, int32_t a, int32_t b, int32_t value)
+{
+    fe__pair_entry *entry = set->entries + find_entry(set, a, b);
+    if (is_taken(entry)) return 0;
+    *entry = (fe__pair_entry){fe__mini(a, b), fe__maxi(a, b), value};
+    set->count += 1;
+    return 1;
+}
+
 // from one entry on to another
 static uint32_t distance(const fe__pair_set *set, uint32_t from, uint32_t to)
 {

@@ -35,6 +35,7 @@ void fe__pair_set_destroy(fe__pair_set *set, fe__memory *memory);
 int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory,
                              int32_t extra); // 0: no memory; the `extra` insertions that follow cannot fail
 void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value); // a != b, in any order; not there yet
+int32_t fe__pair_set_add(fe__pair_set *set, int32_t a, int32_t b, int32_t value); // as that; 0: it is there
 int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b);         // value, -1: not there
 void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b);                // nothing when not there
 

@@ -106,6 +106,18 @@ int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t 
     return 1;
 }
 
+int32_t fe__open_array(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
+{
+    if (need <= 0) return 1;
+    int32_t grown = grown_capacity(0, need, size);
+    char *block = take(memory, (size_t)grown * size);
+    if (!block) return 0;
+    memset(block + (size_t)need * size, 0, (size_t)(grown - need) * size);
+    store_pointer(array, block);
+    *capacity = grown;
+    return 1;
+}
+
 int32_t fe__renew(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) return 1;

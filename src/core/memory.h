@@ -39,9 +39,14 @@ int32_t fe__renew(fe__memory *memory, void *array, int32_t *capacity, int64_t ne
 // Gives the array back and sets pointer and capacity to 0.
 void fe__free_array(fe__memory *memory, void *array, int32_t *capacity, size_t size);
 
+// An array that has nothing yet, for `need` elements that the caller writes, whole; zeros behind them. 0: no memory
+int32_t fe__open_array(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size);
+
 // FE_RESERVE(memory, world->bodies, world->body_capacity, n): typed wrapper of fe__reserve
 #define FE_RESERVE(memory, array, capacity, need) \
     fe__reserve((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
+#define FE_OPEN(memory, array, capacity, need) \
+    fe__open_array((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
 #define FE_RENEW(memory, array, capacity, need) \
     fe__renew((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
 #define FE_FREE(memory, array, capacity) fe__free_array((memory), &(array), &(capacity), sizeof *(array))

@@ -90,7 +90,7 @@ static int32_t reserve_bodies(fe__build *b, int32_t slots)
 {
     fe_world *w = b->world;
     fe__memory *memory = fe__memory_of(b);
-    return (FE_RESERVE(memory, w->bodies, w->body_capacity, slots) &&
+    return (FE_OPEN(memory, w->bodies, w->body_capacity, slots) &&
             FE_RESERVE(memory, w->odometers, w->odometer_capacity, slots) &&
             FE_RESERVE(memory, w->drifts, w->drift_capacity, slots) &&
             FE_RESERVE(memory, w->awake_bodies, w->awake_body_capacity, slots) &&
@@ -126,6 +126,7 @@ int32_t fe__build_bodies(fe__build *b)
                                    (int)w->body_ids.alive_count);
     if (!reserve_bodies(b, slots)) return 0;
     for (int32_t slot = 0, row = 0; slot < slots; ++slot) {
+        memset(w->bodies + slot, 0, sizeof *w->bodies);
         if (w->body_ids.slots[slot].next != FE_ID_ALIVE) continue;
         fe__take_row(b->snapshot, FE__TABLE_BODIES, row, w->bodies + slot);
         fe__take_row(b->snapshot, FE__TABLE_DRIFTS, row++, w->drifts + slot);
@@ -212,7 +213,7 @@ static int32_t reserve_shapes(fe__build *b, int32_t slots)
 {
     fe_world *w = b->world;
     fe__memory *memory = fe__memory_of(b);
-    return (FE_RESERVE(memory, w->shapes, w->shape_capacity, slots) &&
+    return (FE_OPEN(memory, w->shapes, w->shape_capacity, slots) &&
             FE_RESERVE(memory, w->moved, w->moved_capacity, w->shape_capacity)) ||
            fe__lack_memory(b);
 }
@@ -243,8 +244,10 @@ int32_t fe__build_shapes(fe__build *b)
     if (rows != used || rows != fe__rows_of(b->snapshot, FE__TABLE_FORMS))
         return fe__snapshot_refuse(b->snapshot, "shapes: %d rows, %d slots in use", (int)rows, (int)used);
     if (!reserve_shapes(b, slots)) return 0;
-    for (int32_t slot = 0, row = 0; slot < slots; ++slot)
+    for (int32_t slot = 0, row = 0; slot < slots; ++slot) {
+        memset(w->shapes + slot, 0, sizeof *w->shapes);
         if (is_slot_used(&w->shape_ids, slot) && !take_shape(b, slot, row++)) return 0;
+    }
     return fe__build_order(b, &(fe__ordered){"shapes", &w->shape_ids, 1, serial_of_shape, list_shape}, rows);
 }
 

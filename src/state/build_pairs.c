@@ -18,11 +18,13 @@ static int32_t refuse_pair(fe__build *b, int32_t pair, const char *why)
 
 // ---- slots: free, of an owed exit, or of a pair. fe__pair.result says which, until all are known --------------------
 enum { SLOT_UNKNOWN, SLOT_OF_NONE };
+enum { UNMET = -2 }; // fe__link.previous, until the list was followed to it
 
 static int32_t claim_slot(fe__build *b, int32_t slot, int32_t limit)
 {
     if (slot < 1 || slot >= limit || b->world->pairs[slot].result != SLOT_UNKNOWN)
         return fe__snapshot_refuse(b->snapshot, "pairs: slot %d is not free", (int)slot);
+    memset(b->world->contacts + slot, 0, sizeof *b->world->contacts);
     b->world->pairs[slot].result = SLOT_OF_NONE;
     b->world->pairs[slot].flags = FE__PAIR_FREE;
     return 1;
@@ -108,6 +110,12 @@ static int32_t check_triangle(fe__build *b, int32_t pair)
     return (field && is_triangle(w->store, field, p->triangle)) || refuse_pair(b, pair, "it is on no such triangle");
 }
 
+// ---- its contact, and its points where it has some ------------------------------------------------------------------
+typedef struct taken { // rows so far
+    int32_t pairs, patches, points;
+    int64_t links; // in lists of bodies
+} taken;
+
 static int32_t check_contact(fe__build *b, int32_t pair)
 {
     fe_world *w = b->world;
@@ -115,28 +123,86 @@ static int32_t check_contact(fe__build *b, int32_t pair)
     fe__contact *m = w->contacts + pair;
     int32_t flipped = (p->flags & FE__PAIR_FLIPPED) != 0, linked = (p->flags & FE__PAIR_LINKED) != 0;
     m->body_a = flipped ? p->body_b : p->body_a, m->body_b = flipped ? p->body_a : p->body_b;
+    m->kind = fe__pair_kind(w, p->shape_a, p->shape_b);
     if (linked != (m->colour >= 0) || (linked && p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED)))
         return refuse_pair(b, pair, "it is in the constraint graph without a colour, or the other way round");
     if (linked && w->bodies[m->body_b].type != FE_BODY_DYNAMIC) return refuse_pair(b, pair, "nothing in it can move");
-    if (m->kind != fe__pair_kind(w, p->shape_a, p->shape_b) || !(w->row_kinds >> m->kind & 1))
-        return refuse_pair(b, pair, "its row is not of the kind of its shapes");
+    if (!(w->row_kinds >> m->kind & 1)) return refuse_pair(b, pair, "there are no rows of the kind of its shapes");
     if (linked && !fe__recolour_contact(w->bodies, m)) return refuse_pair(b, pair, "its colour is taken");
     return 1;
 }
 
-static int32_t take_pair(fe__build *b, int32_t pair, int32_t row)
+static void take_points(fe__build *b, int32_t pair, const fe__touching_row *row, int32_t number)
+{
+    fe_world *w = b->world;
+    fe__contact *m = w->contacts + pair;
+    int32_t points = m->points = number + 1;
+    m->colour = row->colour;
+    m->point_count = row->point_count;
+    memcpy(m->span, row->span, sizeof m->span);
+    fe__take_row(b->snapshot, FE__TABLE_POINTS, number, w->points + points);
+    fe__take_row(b->snapshot, FE__TABLE_FEATURES, number, w->features + points);
+    if (fe__rows_of(b->snapshot, FE__TABLE_EXTRAS))
+        fe__take_row(b->snapshot, FE__TABLE_EXTRAS, number, w->extras + points);
+    for (int32_t side = 0; side < 2; ++side) w->point_serials[2 * points + side] = fe__pair_serial(w, pair, side);
+}
+
+static void take_contact(fe__build *b, int32_t pair, taken *t)
+{
+    fe__contact *m = b->world->contacts + pair;
+    memset(m, 0, sizeof *m);
+    m->colour = -1;
+    fe__take_row(b->snapshot, FE__TABLE_FOUND, t->pairs, m);
+    if (t->points == fe__rows_of(b->snapshot, FE__TABLE_TOUCHING)) return;
+    fe__touching_row row;
+    fe__take_row(b->snapshot, FE__TABLE_TOUCHING, t->points, &row);
+    if (row.slot == pair) take_points(b, pair, &row, t->points++);
+}
+
+static void take_patch(fe__build *b, int32_t pair, taken *t)
+{
+    fe__pair *p = b->world->pairs + pair;
+    p->awake_index = p->next_patch = p->head = p->triangle = -1;
+    if (t->patches == fe__rows_of(b->snapshot, FE__TABLE_PATCHES)) return;
+    fe__patch_row row;
+    fe__take_row(b->snapshot, FE__TABLE_PATCHES, t->patches, &row);
+    if (row.slot != pair) return;
+    p->next_patch = row.next_patch, p->head = row.head, p->triangle = row.triangle;
+    ++t->patches;
+}
+
+// Heads, and the patches that are linked
+static int32_t is_listed(const fe__pair *p) { return !(p->flags & FE__PAIR_PATCH) || p->flags & FE__PAIR_LINKED; }
+
+static int32_t take_pair(fe__build *b, int32_t pair, taken *t)
 {
     fe_world *w = b->world;
     fe__pair *p = w->pairs + pair;
-    memset(p, 0, sizeof *p);
-    fe__take_row(b->snapshot, FE__TABLE_PAIRS, row, p);
-    fe__take_row(b->snapshot, FE__TABLE_CONTACTS, row, w->contacts + pair);
-    p->awake_index = -1;
-    if (!check_shapes(b, pair) || !check_triangle(b, pair) || !check_contact(b, pair)) return 0;
+    fe__take_row(b->snapshot, FE__TABLE_PAIRS, t->pairs, p);
+    take_patch(b, pair, t);
+    if (!check_shapes(b, pair) || !check_triangle(b, pair)) return 0;
+    take_contact(b, pair, t);
+    if (!check_contact(b, pair)) return 0;
     p->events = (uint16_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
+    p->links[0].previous = p->links[1].previous = is_listed(p) ? UNMET : -1;
+    t->links += is_listed(p) ? 2 : 0;
     fe__pair_note_colour(w, w->contacts + pair);
     w->linked_count += w->contacts[pair].colour >= 0;
+    ++t->pairs;
     return 1;
+}
+
+static int32_t take_pairs(fe__build *b, int32_t rows, taken *t)
+{
+    fe_world *w = b->world;
+    fe__snapshot *s = b->snapshot;
+    for (int32_t pair = 1; pair < w->pair_limit; ++pair)
+        if (w->pairs[pair].result == SLOT_UNKNOWN && !take_pair(b, pair, t)) return 0;
+    atomic_store(&w->point_count, t->points + 1);
+    if (t->pairs != rows || t->points != fe__rows_of(s, FE__TABLE_TOUCHING))
+        return fe__snapshot_refuse(s, "points: there are some of no pair, or not in the order of pairs");
+    return t->patches == fe__rows_of(s, FE__TABLE_PATCHES) ||
+           fe__snapshot_refuse(s, "patches: there are some of no pair, or not in the order of pairs");
 }
 
 // ---- heads and patches ---------------------------------------------------------------------------------------------
@@ -162,9 +228,8 @@ static int32_t count_head(fe__build *b, int32_t head)
     const fe__pair *p = w->pairs + head;
     if (!check_patches(b, head)) return 0;
     if (p->head != -1) return refuse_pair(b, head, "it has a head");
-    if (fe__pair_set_find(&w->pair_set, p->shape_a, p->shape_b) >= 0)
+    if (!fe__pair_set_add(&w->pair_set, p->shape_a, p->shape_b, head))
         return refuse_pair(b, head, "its shapes have another one");
-    fe__pair_set_insert(&w->pair_set, p->shape_a, p->shape_b, head);
     int32_t contacts = p->next_patch >= 0 ? FE__PATCHES : 1;
     const int32_t ends[2] = {p->body_a, p->body_b};
     int32_t with_static = w->bodies[ends[0]].type == FE_BODY_STATIC || w->bodies[ends[1]].type == FE_BODY_STATIC;
@@ -189,10 +254,7 @@ static int32_t count_heads(fe__build *b, int32_t rows)
     return heads == rows || fe__snapshot_refuse(b->snapshot, "pairs: a patch has no head");
 }
 
-// ---- lists of bodies: heads, and the patches that are linked --------------------------------------------------------
-static int32_t is_listed(const fe__pair *p) { return !(p->flags & FE__PAIR_PATCH) || p->flags & FE__PAIR_LINKED; }
-
-// fe__link.previous is -2 until the link was met
+// ---- lists of bodies ------------------------------------------------------------------------------------------------
 static int32_t follow_list(fe__build *b, int32_t body, int64_t *met)
 {
     fe_world *w = b->world;
@@ -202,7 +264,7 @@ static int32_t follow_list(fe__build *b, int32_t body, int64_t *met)
             return fe__snapshot_refuse(b->snapshot, "body in slot %d: its list leads to no pair", (int)body);
         fe__pair *p = w->pairs + pair;
         fe__link *link = p->body_a == body ? p->links : p->links + 1;
-        if ((p->body_a != body && p->body_b != body) || link->previous != -2)
+        if ((p->body_a != body && p->body_b != body) || link->previous != UNMET)
             return fe__snapshot_refuse(b->snapshot, "body in slot %d: its list leads astray", (int)body);
         link->previous = previous, previous = pair;
         pair = link->next;
@@ -211,67 +273,57 @@ static int32_t follow_list(fe__build *b, int32_t body, int64_t *met)
     return 1;
 }
 
-static int32_t follow_lists(fe__build *b)
+static int32_t follow_lists(fe__build *b, int64_t links)
 {
-    fe_world *w = b->world;
-    int64_t met = 0, links = 0;
-    for (int32_t pair = 1; pair < w->pair_limit; ++pair) {
-        fe__pair *p = w->pairs + pair;
-        if (p->flags & FE__PAIR_FREE) continue;
-        p->links[0].previous = p->links[1].previous = is_listed(p) ? -2 : -1;
-        links += is_listed(p) ? 2 : 0;
-    }
+    const fe_world *w = b->world;
+    int64_t met = 0;
     for (int32_t body = 0; body < w->body_ids.slot_count; ++body)
         if (w->body_ids.slots[body].next == FE_ID_ALIVE && !follow_list(b, body, &met)) return 0;
     return met == links || fe__snapshot_refuse(b->snapshot, "pairs: one is in no list");
 }
 
-// ---- points --------------------------------------------------------------------------------------------------------
-static int32_t take_points(fe__build *b, const fe__world_row *row)
+// ---- all -----------------------------------------------------------------------------------------------------------
+static int32_t check_rows(fe__build *b, const fe__world_row *row)
+{
+    fe__snapshot *s = b->snapshot;
+    int64_t rows = fe__rows_of(s, FE__TABLE_PAIRS), limit = row->pair_limit;
+    int32_t points = fe__rows_of(s, FE__TABLE_TOUCHING);
+    if (rows != fe__rows_of(s, FE__TABLE_FOUND) ||
+        limit != 1 + rows + fe__rows_of(s, FE__TABLE_FREE_PAIRS) + fe__rows_of(s, FE__TABLE_OWED))
+        return fe__snapshot_refuse(s, "pairs: %lld rows do not fill %lld slots", (long long)rows, (long long)limit);
+    if (points != fe__rows_of(s, FE__TABLE_POINTS) || points != fe__rows_of(s, FE__TABLE_FEATURES) ||
+        fe__rows_of(s, FE__TABLE_EXTRAS) != (row->has_extras ? points : 0))
+        return fe__snapshot_refuse(s, "points: tables of one thing have not as many rows");
+    return 1;
+}
+
+// Record 0 of contacts, points and features is none, and zeros
+static int32_t open_arrays(fe__build *b, const fe__world_row *row)
 {
     fe_world *w = b->world;
-    fe__snapshot *s = b->snapshot;
-    int32_t rows = fe__rows_of(s, FE__TABLE_TOUCHING);
-    if (rows != fe__rows_of(s, FE__TABLE_POINTS) || rows != fe__rows_of(s, FE__TABLE_FEATURES) ||
-        fe__rows_of(s, FE__TABLE_EXTRAS) != (row->has_extras ? rows : 0))
-        return fe__snapshot_refuse(s, "points: tables of one thing have not as many rows");
-    for (int32_t i = 0; i < rows; ++i) {
-        int32_t pair = fe__listed_slot(s, FE__TABLE_TOUCHING, i), points = i + 1;
-        if (pair < 1 || pair >= w->pair_limit || w->pairs[pair].flags & FE__PAIR_FREE || w->contacts[pair].points)
-            return fe__snapshot_refuse(s, "points: there is no pair %d, or it has some already", (int)pair);
-        w->contacts[pair].points = points;
-        fe__take_row(s, FE__TABLE_POINTS, i, w->points + points);
-        fe__take_row(s, FE__TABLE_FEATURES, i, w->features + points);
-        if (row->has_extras) fe__take_row(s, FE__TABLE_EXTRAS, i, w->extras + points);
-        for (int32_t side = 0; side < 2; ++side) w->point_serials[2 * points + side] = fe__pair_serial(w, pair, side);
-    }
-    atomic_store(&w->point_count, rows + 1);
-    for (int32_t pair = 1; pair < w->pair_limit; ++pair) {
-        const fe__contact *m = w->contacts + pair;
-        if (w->pairs[pair].flags & FE__PAIR_FREE || m->points) continue;
-        if (m->colour >= 0 || m->point_count > 0.0f) return refuse_pair(b, pair, "its points are not there");
-    }
+    fe__memory *memory = fe__memory_of(b);
+    int32_t limit = row->pair_limit, points = fe__rows_of(b->snapshot, FE__TABLE_TOUCHING);
+    if (!FE_OPEN(memory, w->contacts, w->contact_capacity, limit) ||
+        !FE_RESERVE(memory, w->pairs, w->pair_capacity, limit) ||
+        !FE_RESERVE(memory, w->awake_pairs, w->awake_pair_capacity, limit) ||
+        !FE_RESERVE(memory, w->deferrals, w->deferral_capacity, limit) ||
+        !FE_OPEN(memory, w->points, w->point_capacity, (int64_t)points + 1) ||
+        !FE_OPEN(memory, w->features, w->feature_capacity, (int64_t)points + 1) ||
+        !fe__points_reserve(w, points, row->has_extras))
+        return fe__lack_memory(b);
+    memset(w->contacts, 0, sizeof *w->contacts);
+    memset(w->points, 0, sizeof *w->points);
+    memset(w->features, 0, sizeof *w->features);
     return 1;
 }
 
 int32_t fe__build_pairs(fe__build *b, const fe__world_row *row)
 {
     fe_world *w = b->world;
-    fe__memory *memory = fe__memory_of(b);
-    int64_t rows = fe__rows_of(b->snapshot, FE__TABLE_PAIRS), limit = row->pair_limit;
-    if (rows != fe__rows_of(b->snapshot, FE__TABLE_CONTACTS) ||
-        limit != 1 + rows + fe__rows_of(b->snapshot, FE__TABLE_FREE_PAIRS) + fe__rows_of(b->snapshot, FE__TABLE_OWED))
-        return fe__snapshot_refuse(b->snapshot, "pairs: %lld rows do not fill %lld slots", (long long)rows,
-                                   (long long)limit);
-    if (!FE_RESERVE(memory, w->contacts, w->contact_capacity, limit) ||
-        !FE_RESERVE(memory, w->pairs, w->pair_capacity, limit) ||
-        !FE_RESERVE(memory, w->awake_pairs, w->awake_pair_capacity, limit) ||
-        !FE_RESERVE(memory, w->deferrals, w->deferral_capacity, limit) ||
-        !fe__points_reserve(w, fe__rows_of(b->snapshot, FE__TABLE_TOUCHING), row->has_extras))
-        return fe__lack_memory(b);
-    if (!take_free(b, (int32_t)limit) || !take_owed(b, (int32_t)limit)) return 0;
-    w->pair_limit = (int32_t)limit;
-    for (int32_t pair = 1, next = 0; pair < limit; ++pair)
-        if (w->pairs[pair].result == SLOT_UNKNOWN && !take_pair(b, pair, next++)) return 0;
-    return count_heads(b, (int32_t)rows) && follow_lists(b) && take_points(b, row);
+    int32_t rows = fe__rows_of(b->snapshot, FE__TABLE_PAIRS);
+    taken t = {.links = 0};
+    if (!check_rows(b, row) || !open_arrays(b, row) || !take_free(b, row->pair_limit) || !take_owed(b, row->pair_limit))
+        return 0;
+    w->pair_limit = row->pair_limit;
+    return take_pairs(b, rows, &t) && count_heads(b, rows) && follow_lists(b, t.links);
 }

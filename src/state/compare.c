@@ -11,7 +11,7 @@
 #include <string.h>
 
 // ---- entries: what has a serial, and where its rows are -------------------------------------------------------------
-enum { ROW, SECOND_ROW, THIRD_ROW, ROWS }; // of an entry: in the tables of its kind, -1: none
+enum { ROW, SECOND_ROW, THIRD_ROW, FOURTH_ROW, ROWS }; // of an entry: in the tables of its kind, -1: none
 
 typedef struct entry {
     uint64_t key[2];
@@ -64,8 +64,8 @@ static entry *open_entries(side *s, int32_t kind, fe__table_number table)
     int32_t count = s->counts[kind] = fe__rows_of(s->snapshot, table);
     s->entries[kind] = fe__allocate(s->memory, sizeof(entry) * (size_t)(count + 1));
     for (int32_t i = 0; i < count && s->entries[kind]; ++i)
-        s->entries[kind][i].rows[ROW] = i,
-        s->entries[kind][i].rows[SECOND_ROW] = s->entries[kind][i].rows[THIRD_ROW] = -1;
+        s->entries[kind][i].rows[ROW] = i, s->entries[kind][i].rows[SECOND_ROW] = s->entries[kind][i].rows[THIRD_ROW] =
+                                               s->entries[kind][i].rows[FOURTH_ROW] = -1;
     return s->entries[kind];
 }
 
@@ -207,6 +207,7 @@ static int32_t open_pairs(side *s)
         for (int32_t i = 0; i < s->counts[PAIRS]; ++i) name_pair(s, e + i, i);
         place_second_rows(s, FE__TABLE_TOUCHING, SECOND_ROW, row_of, limit);
         place_second_rows(s, FE__TABLE_DEFERRALS, THIRD_ROW, row_of, limit);
+        place_second_rows(s, FE__TABLE_PATCHES, FOURTH_ROW, row_of, limit);
     }
     fe__release(s->memory, row_of, size);
     return row_of && e;
@@ -336,7 +337,7 @@ typedef struct kind_tables {
     const char *name;
     struct {
         int32_t table, which; // which of an entry's rows
-    } tables[6];
+    } tables[8];
     int32_t count;
 } kind_tables;
 
@@ -355,12 +356,14 @@ static const kind_tables kinds[KINDS] = {
                 6},
     [PAIRS] = {"pair",
                {{FE__TABLE_PAIRS, ROW},
-                {FE__TABLE_CONTACTS, ROW},
+                {FE__TABLE_FOUND, ROW},
+                {FE__TABLE_TOUCHING, SECOND_ROW},
                 {FE__TABLE_POINTS, SECOND_ROW},
                 {FE__TABLE_FEATURES, SECOND_ROW},
                 {FE__TABLE_EXTRAS, SECOND_ROW},
-                {FE__TABLE_DEFERRALS, THIRD_ROW}},
-               6},
+                {FE__TABLE_DEFERRALS, THIRD_ROW},
+                {FE__TABLE_PATCHES, FOURTH_ROW}},
+               8},
 };
 
 static int32_t name_entry(const comparison *c, const kind_tables *kind, const entry *e)

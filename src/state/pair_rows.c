@@ -33,6 +33,14 @@ static int32_t next_with_points(const fe_world *w, int32_t place)
     return place;
 }
 
+// A pair that has patches, or one of them
+static int32_t next_patched(const fe_world *w, int32_t place)
+{
+    do place = next_pair(w, place);
+    while (place < w->pair_limit && w->pairs[place].next_patch < 0 && w->pairs[place].head < 0);
+    return place;
+}
+
 static int32_t next_awake(const fe_world *w, int32_t place)
 {
     do place = next_pair(w, place);
@@ -47,10 +55,25 @@ static int32_t points_in_use(const fe_world *w)
 
 ROWS(pairs, live_pairs(world), next_pair(world, place))
 RECORDS(pairs, world->pairs + place)
-ROWS(contacts, live_pairs(world), next_pair(world, place))
-RECORDS(contacts, world->contacts + place)
+ROWS(found, live_pairs(world), next_pair(world, place))
+RECORDS(found, world->contacts + place)
+
+ROWS(patches, world->field_pair_count *FE__PATCHES, next_patched(world, place))
+static const void *patches_at(const fe_world *world, int32_t place, void *room)
+{
+    const fe__pair *p = world->pairs + place;
+    *(fe__patch_row *)room = (fe__patch_row){place, p->next_patch, p->head, p->triangle};
+    return room;
+}
+
 ROWS(touching, points_in_use(world), next_with_points(world, place))
-RECORDS(touching, fe__slot_in(room, place))
+static const void *touching_at(const fe_world *world, int32_t place, void *room)
+{
+    const fe__contact *m = world->contacts + place;
+    *(fe__touching_row *)room =
+        (fe__touching_row){place, m->colour, m->point_count, {m->span[0], m->span[1], m->span[2]}};
+    return room;
+}
 ROWS(points, points_in_use(world), next_with_points(world, place))
 RECORDS(points, world->points + world->contacts[place].points)
 ROWS(features, points_in_use(world), next_with_points(world, place))
@@ -162,7 +185,8 @@ static const void *encounters_at(const fe_world *world, int32_t place, void *roo
 // ---- blocks of rows
 // ---------------------------------------------------------------------------------------------------
 FE__GATHER(pairs)
-FE__GATHER(contacts)
+FE__GATHER(found)
+FE__GATHER(patches)
 FE__GATHER(touching)
 FE__GATHER(points)
 FE__GATHER(features)

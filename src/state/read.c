@@ -2,6 +2,7 @@
 #include "state/read.h"
 
 #include "core/bytes.h"
+#include "state/delta.h"
 #include "state/sum.h"
 
 #include <float.h>
@@ -30,15 +31,18 @@ static int32_t read_header(fe__snapshot *s)
     const unsigned char *at = s->bytes + sizeof fe__snapshot_magic;
     if (s->size < FE__SNAPSHOT_HEADER)
         return fe__snapshot_refuse(s, "there are %lld bytes, a header has %d", (long long)s->size, FE__SNAPSHOT_HEADER);
+    if (fe__is_delta(s->bytes, s->size))
+        return fe__snapshot_refuse(s, "these are a difference: restore them with their base, and save the world");
     if (memcmp(s->bytes, fe__snapshot_magic, sizeof fe__snapshot_magic))
         return fe__snapshot_refuse(s, "these are no bytes of fe_world_save");
     uint32_t major = fe__take_u16(&at);
     (void)fe__take_u16(&at);
-    if (major > FE__SNAPSHOT_MAJOR) {
-        fe__snapshot_refuse(s, "format %u is of a newer library", (unsigned)major);
+    if (major == 0) return fe__snapshot_refuse(s, "byte %d: 0 is no format", FE__AT_MAJOR);
+    if (major != FE__SNAPSHOT_MAJOR) {
+        fe__snapshot_refuse(s, "format %u is of a %s", (unsigned)major,
+                            major > FE__SNAPSHOT_MAJOR ? "newer library" : "library before 1.0");
         return fe__snapshot_fail(s, FE_ERROR_VERSION);
     }
-    if (major == 0) return fe__snapshot_refuse(s, "byte %d: 0 is no format", FE__AT_MAJOR);
     s->results = fe__take_u32(&at), s->version = fe__take_u32(&at);
     s->number = (int32_t)fe__take_u32(&at);
     uint64_t size = fe__take_u64(&at);
@@ -105,13 +109,8 @@ static int32_t check_row(fe__snapshot *s, const fe__table *table, int32_t row, c
 
 static int32_t check_rows(fe__snapshot *s, const fe__table *table, const fe__view *view)
 {
-    for (int32_t first = 0; first < view->rows; first += FE__BLOCK) {
-        const unsigned char *at = view->content + (int64_t)first * table->row_size;
-        int32_t count = fe__mini(view->rows - first, FE__BLOCK);
-        if (!table->doubt(at, count)) continue;
-        for (int32_t i = 0; i < count; ++i)
-            if (!check_row(s, table, first + i, at + (int64_t)i * table->row_size)) return 0;
-    }
+    for (int32_t row = 0; row < view->rows; ++row)
+        if (!check_row(s, table, row, view->content + (int64_t)row * table->row_size)) return 0;
     return 1;
 }
 
@@ -134,9 +133,14 @@ static int32_t read_section(fe__snapshot *s, int64_t at, section *out)
     out->size = (int64_t)size;
     if (size % 8 || size > (uint64_t)(s->bytes + s->size - in))
         return fe__snapshot_refuse(s, "byte %lld: section %u is cut", (long long)at, (unsigned)out->type);
-    if (out->sum != fe__sum_of(in, out->size))
-        return fe__snapshot_refuse(s, "byte %lld: section %u was altered", (long long)at, (unsigned)out->type);
     return 1;
+}
+
+static int32_t check_sum(fe__snapshot *s, const section *in, uint64_t sum)
+{
+    if (in->sum == sum) return 1;
+    return fe__snapshot_refuse(s, "byte %lld: section %u was altered",
+                               (long long)(in->content - FE__SECTION_HEADER - s->bytes), (unsigned)in->type);
 }
 
 static int32_t is_known(const section *in, uint32_t type)
@@ -144,20 +148,54 @@ static int32_t is_known(const section *in, uint32_t type)
     return in->type == type && in->version == 1 && in->flags == 0;
 }
 
+// The sum of a section with rows, and whether one of their numbers may be out of its range: of a block at a time, while
+// it is near
+static uint64_t sum_rows(const fe__table *table, const section *in, const fe__view *view, uint32_t *out_doubts)
+{
+    fe__sum sum = {{0}, 0};
+    const unsigned char *at = view->content;
+    for (int32_t first = 0; first < view->rows; first += FE__BLOCK) {
+        int32_t count = fe__mini(view->rows - first, FE__BLOCK);
+        *out_doubts |= table->doubt(at, count);
+        at += (int64_t)count * table->row_size;
+        int64_t lines = (at - in->content - sum.size) / FE__SUM_LINE * FE__SUM_LINE;
+        fe__sum_lines(&sum, in->content + sum.size, lines);
+    }
+    int64_t summed = sum.size;
+    return fe__sum_end(&sum, in->content + summed, in->size - summed);
+}
+
+// The rows that its size has room for
+static fe__view view_of(const section *in, uint32_t number, uint64_t *out_rows)
+{
+    const unsigned char *at = in->content;
+    uint64_t rows = *out_rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
+    int32_t fits =
+        rows <= INT32_MAX && fe__padded(FE__SECTION_ROWS + (int64_t)rows * fe__tables[number].row_size) == in->size;
+    return (fe__view){at, fits ? (int32_t)rows : -1, (int32_t)number};
+}
+
+static int32_t check_view(fe__snapshot *s, const section *in, uint32_t number, uint64_t rows)
+{
+    const char *name = fe__tables[number].name;
+    int64_t where = in->content - s->bytes;
+    if (!is_known(in, number))
+        return fe__snapshot_refuse(s, "byte %lld: section %u, version %u stands where %s must be", (long long)where,
+                                   (unsigned)in->type, (unsigned)in->version, name);
+    if (s->tables[number].rows >= 0) return 1;
+    return fe__snapshot_refuse(s, "byte %lld: %s has %lld bytes, which are not those of %llu rows", (long long)where,
+                               name, (long long)in->size, (unsigned long long)rows);
+}
+
 static int32_t read_table(fe__snapshot *s, const section *in, uint32_t number)
 {
     const fe__table *table = fe__tables + number;
-    const unsigned char *at = in->content;
-    int64_t where = at - s->bytes;
-    if (!is_known(in, number))
-        return fe__snapshot_refuse(s, "byte %lld: section %u, version %u stands where %s must be", (long long)where,
-                                   (unsigned)in->type, (unsigned)in->version, table->name);
-    uint64_t rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
-    if (rows > INT32_MAX || fe__padded(FE__SECTION_ROWS + (int64_t)rows * table->row_size) != in->size)
-        return fe__snapshot_refuse(s, "byte %lld: %s has %lld bytes, which are not those of %llu rows",
-                                   (long long)where, table->name, (long long)in->size, (unsigned long long)rows);
-    s->tables[number] = (fe__view){at, (int32_t)rows, (int32_t)number};
-    return check_rows(s, table, s->tables + number);
+    fe__view *view = s->tables + number;
+    uint32_t doubts = 0;
+    uint64_t rows;
+    *view = view_of(in, number, &rows);
+    return check_sum(s, in, sum_rows(table, in, view, &doubts)) && check_view(s, in, number, rows) &&
+           (!doubts || check_rows(s, table, view));
 }
 
 static int32_t read_sections(fe__snapshot *s)
@@ -171,7 +209,7 @@ static int32_t read_sections(fe__snapshot *s)
     for (uint32_t i = 0; i < count; ++i) {
         section in = {0};
         if (!read_section(s, at, &in)) return 0;
-        if (i < FE__TABLES && !read_table(s, &in, i)) return 0;
+        if (i < FE__TABLES ? !read_table(s, &in, i) : !check_sum(s, &in, fe__sum_of(in.content, in.size))) return 0;
         if (i >= FE__TABLES && is_known(&in, FE__SECTION_ASSET)) {
             if (!s->asset_count++) s->assets_at = at;
         } else if (i >= FE__TABLES && !(in.flags & FE__SECTION_MAY_SKIP))
@@ -182,6 +220,22 @@ static int32_t read_sections(fe__snapshot *s)
     if (at != s->size) return fe__snapshot_refuse(s, "byte %lld: something stands behind the sections", (long long)at);
     if (told != fe__join_sums(sum, fe__header_sum(s->bytes)))
         return fe__snapshot_refuse(s, "byte %d: the sum is not that of the bytes: they were altered", FE__AT_SUM);
+    return 1;
+}
+
+int32_t fe__snapshot_outline(fe__snapshot *s, const void *bytes, int64_t size)
+{
+    *s = (fe__snapshot){.bytes = bytes, .size = size};
+    if (!read_header(s)) return 0;
+    int64_t at = FE__SNAPSHOT_HEADER;
+    for (uint32_t i = 0; i < FE__TABLES; ++i) {
+        section in = {0};
+        uint64_t rows;
+        if (!read_section(s, at, &in)) return 0;
+        s->tables[i] = view_of(&in, i, &rows);
+        if (!check_view(s, &in, i, rows)) return 0;
+        at = in.content - s->bytes + in.size;
+    }
     return 1;
 }
 

@@ -26,6 +26,8 @@ typedef struct fe__snapshot {
 
 // 0: refused, with a sentence
 int32_t fe__snapshot_open(fe__snapshot *snapshot, const void *bytes, int64_t size);
+// Its sections and how many rows each table has, and no more: neither sums nor numbers are looked at. 0: refused
+int32_t fe__snapshot_outline(fe__snapshot *snapshot, const void *bytes, int64_t size);
 // Keeps the sentence, returns 0
 int32_t fe__snapshot_refuse(fe__snapshot *snapshot, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int32_t fe__snapshot_fail(fe__snapshot *snapshot, fe_result result); // memory or a limit: no sentence; returns 0

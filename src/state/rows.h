@@ -29,19 +29,22 @@ static inline int64_t fe__most_nodes(const fe__tree *tree)
 }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
-#define FE__DECLARE_ROWS(rows)                       \
-    int32_t fe__count_##rows(const fe_world *world); \
-    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block);
+#define FE__DECLARE_ROWS(rows)                                                                             \
+    int32_t fe__count_##rows(const fe_world *world);                                                       \
+    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block); \
+    void fe__find_##rows(const fe_world *world, int32_t count, fe__rows_block *block);
 
 // Of functions `next_` and `_at` of the same file
-#define FE__GATHER(rows)                                                                                  \
-    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block) \
-    {                                                                                                     \
-        for (int32_t i = 0; i < count; ++i) {                                                             \
-            place = next_##rows(world, place);                                                            \
-            block->records[i] = rows##_at(world, place, block->rooms[i]);                                 \
-        }                                                                                                 \
-        return place;                                                                                     \
+#define FE__GATHER(rows)                                                                                             \
+    void fe__find_##rows(const fe_world *world, int32_t count, fe__rows_block *block)                                \
+    {                                                                                                                \
+        for (int32_t i = 0; i < count; ++i) block->records[i] = rows##_at(world, block->places[i], block->rooms[i]); \
+    }                                                                                                                \
+    int32_t fe__gather_##rows(const fe_world *world, int32_t place, int32_t count, fe__rows_block *block)            \
+    {                                                                                                                \
+        for (int32_t i = 0; i < count; ++i) block->places[i] = place = next_##rows(world, place);                    \
+        fe__find_##rows(world, count, block);                                                                        \
+        return place;                                                                                                \
     }
 
 FE__DECLARE_ROWS(world)
@@ -64,7 +67,8 @@ FE__DECLARE_ROWS(joint_frames)
 FE__DECLARE_ROWS(joint_reactions)
 FE__DECLARE_ROWS(joint_axes)
 FE__DECLARE_ROWS(pairs)
-FE__DECLARE_ROWS(contacts)
+FE__DECLARE_ROWS(found)
+FE__DECLARE_ROWS(patches)
 FE__DECLARE_ROWS(touching)
 FE__DECLARE_ROWS(points)
 FE__DECLARE_ROWS(features)

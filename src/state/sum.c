@@ -5,7 +5,7 @@
 #include "core/bytes.h"
 #include "core/hash.h"
 
-enum { LANES = 8, WORD = 8 };
+enum { WORD = 8 };
 
 static inline uint64_t word_at(const unsigned char *at)
 {
@@ -21,20 +21,28 @@ static inline uint64_t step(uint64_t state, uint64_t word)
     return state ^ state >> 32;
 }
 
-uint64_t fe__sum_of(const unsigned char *bytes, int64_t size)
+void fe__sum_lines(fe__sum *sum, const unsigned char *bytes, int64_t size)
 {
-    uint64_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0; // in registers, as an array would not be
-    const unsigned char *at = bytes, *end = bytes + size;
-    for (; end - at >= LANES * WORD; at += LANES * WORD) {
+    uint64_t *l = sum->lanes; // in registers meanwhile, as an array would not be
+    uint64_t a = l[0], b = l[1], c = l[2], d = l[3], e = l[4], f = l[5], g = l[6], h = l[7];
+    for (const unsigned char *at = bytes, *end = bytes + size; at < end; at += FE__SUM_LINE) {
         a = step(a, word_at(at)), b = step(b, word_at(at + WORD));
         c = step(c, word_at(at + 2 * WORD)), d = step(d, word_at(at + 3 * WORD));
         e = step(e, word_at(at + 4 * WORD)), f = step(f, word_at(at + 5 * WORD));
         g = step(g, word_at(at + 6 * WORD)), h = step(h, word_at(at + 7 * WORD));
     }
-    uint64_t lanes[LANES] = {a, b, c, d, e, f, g, h};
-    for (int k = 0; at < end; ++k, at += WORD) lanes[k] = step(lanes[k], word_at(at));
-    fe__hash sum = fe__hash_begin();
-    for (int k = 0; k < LANES; ++k) fe__hash_u64(&sum, lanes[k]);
-    fe__hash_u64(&sum, (uint64_t)size);
-    return fe__hash_end(&sum);
+    l[0] = a, l[1] = b, l[2] = c, l[3] = d, l[4] = e, l[5] = f, l[6] = g, l[7] = h;
+    sum->size += size;
+}
+
+uint64_t fe__sum_end(fe__sum *sum, const unsigned char *bytes, int64_t size)
+{
+    int64_t lines = size / FE__SUM_LINE * FE__SUM_LINE;
+    fe__sum_lines(sum, bytes, lines);
+    for (int64_t at = lines, k = 0; at < size; at += WORD, ++k)
+        sum->lanes[k] = step(sum->lanes[k], word_at(bytes + at));
+    fe__hash all = fe__hash_begin();
+    for (int k = 0; k < FE__SUM_LANES; ++k) fe__hash_u64(&all, sum->lanes[k]);
+    fe__hash_u64(&all, (uint64_t)(sum->size + size - lines));
+    return fe__hash_end(&all);
 }

@@ -1,7 +1,8 @@
 // table.h - the tables of a snapshot: which records there are, in which order they stand, and of what they consist.
 //
 // A table is a section of the format: as many rows as records, in each the fields one behind another. Rows are in the
-// order of the records' slots, so that the same state gives the same bytes whatever was allocated, and by whom.
+// order of the records' slots, so that the same state gives the same bytes whatever was allocated, and by whom. Of some
+// tables the rows are those of the table before, in the same places: they are written together.
 #ifndef FE_STATE_TABLE_H
 #define FE_STATE_TABLE_H
 #include "state/field.h"
@@ -28,7 +29,8 @@ typedef enum fe__table_number {
     FE__TABLE_JOINT_REACTIONS,
     FE__TABLE_JOINT_AXES,
     FE__TABLE_PAIRS,
-    FE__TABLE_CONTACTS,
+    FE__TABLE_FOUND,    // of each pair, what its next look needs: two of three are near misses and have no more
+    FE__TABLE_PATCHES,  // of pairs with heightfields and meshes
     FE__TABLE_TOUCHING, // pairs that have points
     FE__TABLE_POINTS,
     FE__TABLE_FEATURES,
@@ -64,6 +66,7 @@ enum {
 // Records of a block of rows: the world's own, or made in the rooms
 typedef struct fe__rows_block {
     const void *records[FE__BLOCK];
+    int32_t places[FE__BLOCK]; // in the world
     _Alignas(16) unsigned char rooms[FE__BLOCK][FE__ROOM];
 } fe__rows_block;
 
@@ -72,9 +75,11 @@ typedef struct fe__table {
     const fe__field *fields;
     int32_t field_count;
     int32_t row_size;                        // bytes
+    int32_t is_beside;                       // its rows, where it has any, are those of the table before
     int32_t (*count)(const fe_world *world); // rows, in constant time
     // The next rows behind a place, -1: from the first. Returns the place of the last of them
     int32_t (*gather)(const fe_world *world, int32_t place, int32_t rows, fe__rows_block *block);
+    void (*find)(const fe_world *world, int32_t rows, fe__rows_block *block); // the records of its places
     void (*put)(const fe__rows_block *block, int32_t rows, unsigned char *out);
     void (*take)(const unsigned char *row, fe_handle number, void *record); // number: of the world, in its bits
     // Most numbers are within their ranges: 0 when each number of these rows is. Else some may be outside
@@ -109,6 +114,15 @@ typedef struct fe__asset_row {
 typedef struct fe__slot_row { // an entry of a list
     int32_t slot;
 } fe__slot_row;
+
+typedef struct fe__patch_row { // what fe__pair has for patches
+    int32_t slot, next_patch, head, triangle;
+} fe__patch_row;
+
+typedef struct fe__touching_row { // what fe__contact has for points
+    int32_t slot, colour;
+    float point_count, span[3];
+} fe__touching_row;
 
 typedef struct fe__owed_row {
     int32_t slot;

@@ -131,15 +131,20 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, shape_a, I32, INDEX) S(T, shape_b, I32, INDEX) R(T, body_a) R(T, body_b) \
     S(T, links[0].next, I32, LINK) R(T, links[0].previous) S(T, links[1].next, I32, LINK) R(T, links[1].previous) \
     S(T, flags, U32, ANY) R(T, events) /* of its shapes */ R(T, result) /* within a step */ \
-    S(T, next_patch, I32, LINK) R(T, awake_index) S(T, axis, I32, LINK) S(T, axis_separation, F32, FINITE) \
-    S(T, head, I32, LINK) S(T, triangle, I32, LINK)
+    R(T, next_patch) /* a table of its own */ R(T, awake_index) S(T, axis, I32, LINK) \
+    S(T, axis_separation, F32, FINITE) R(T, head) R(T, triangle)
 
-#define CONTACT(T, S, R, P) \
-    S(T, normal, F32, FINITE) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE) \
-    S(T, static_friction, F32, POSITIVE) \
+#define FOUND(T, S, R, P) \
+    S(T, normal, F32, FINITE) R(T, point_count) R(T, span) /* with the points */ S(T, static_friction, F32, POSITIVE) \
     S(T, surface, F32, FINITE) S(T, found_span, F32, FINITE) S(T, longest_arm, F32, FINITE) \
     S(T, found_a, F32, FINITE) S(T, found_b, F32, FINITE) S(T, found_low, F32, FINITE) R(T, points) R(T, body_a) \
-    R(T, body_b) S(T, kind, I32, ROW_KIND) S(T, colour, I32, COLOUR)
+    R(T, body_b) R(T, kind) /* of its shapes */ R(T, colour)
+
+#define PATCH(T, S, R, P) \
+    S(T, slot, I32, INDEX) S(T, next_patch, I32, LINK) S(T, head, I32, LINK) S(T, triangle, I32, LINK)
+
+#define TOUCHING(T, S, R, P) \
+    S(T, slot, I32, INDEX) S(T, colour, I32, COLOUR) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE)
 
 #define POINTS(T, S, R, P) \
     S(T, separation, F32, FINITE) S(T, normal_impulse, F32, FINITE) S(T, friction_impulse, F32, FINITE) \
@@ -245,7 +250,9 @@ DEFINE(frame_fields, fe__joint_frame, JOINT_FRAME);
 DEFINE(reaction_fields, fe__joint_reaction, REACTION);
 DEFINE(axes_fields, fe__joint_axes, AXES);
 DEFINE(pair_fields, fe__pair, PAIR);
-DEFINE(contact_fields, fe__contact, CONTACT);
+DEFINE(found_fields, fe__contact, FOUND);
+DEFINE(patch_fields, fe__patch_row, PATCH);
+DEFINE(touching_fields, fe__touching_row, TOUCHING);
 DEFINE(points_fields, fe__points, POINTS);
 DEFINE(feature_fields, fe__features, FEATURES);
 DEFINE(extra_fields, fe__extra, EXTRA);
@@ -281,55 +288,57 @@ SETTINGS(hinge_fields, fe_hinge_joint_def)
 SETTINGS(fixed_fields, fe_fixed_joint_def)
 SETTINGS(configurable_fields, fe_configurable_joint_def)
 
-#define TABLE(name, fields, record, rows)                                                                    \
-    {                                                                                                        \
-        name, fields, sizeof(fields) / sizeof *(fields), fields##_size, fe__count_##rows, fe__gather_##rows, \
-            put_##fields, take_##fields, doubt_##fields                                                      \
+#define ROWS(name, fields, rows, is_beside)                                                          \
+    {                                                                                                \
+        name, fields, sizeof(fields) / sizeof *(fields), fields##_size, is_beside, fe__count_##rows, \
+            fe__gather_##rows, fe__find_##rows, put_##fields, take_##fields, doubt_##fields          \
     }
+#define TABLE(name, fields, rows) ROWS(name, fields, rows, 0)
+#define BESIDE(name, fields, rows) ROWS(name, fields, rows, 1)
 
 const fe__table fe__tables[FE__TABLES] = {
-    [FE__TABLE_WORLD] = TABLE("world", world_fields, fe__world_row, world),
-    [FE__TABLE_BODY_SLOTS] = TABLE("body slots", slot_fields, fe__id_slot, body_slots),
-    [FE__TABLE_SHAPE_SLOTS] = TABLE("shape slots", slot_fields, fe__id_slot, shape_slots),
-    [FE__TABLE_JOINT_SLOTS] = TABLE("joint slots", slot_fields, fe__id_slot, joint_slots),
-    [FE__TABLE_BODIES] = TABLE("bodies", body_fields, fe__body, bodies),
-    [FE__TABLE_DRIFTS] = TABLE("drifts", drift_fields, fe__drift, drifts),
-    [FE__TABLE_SHAPES] = TABLE("shapes", shape_fields, fe__shape, shapes),
-    [FE__TABLE_FORMS] = TABLE("forms", form_fields, fe__form_numbers, forms),
-    [FE__TABLE_ASSETS] = TABLE("assets", asset_fields, fe__asset_row, assets),
-    [FE__TABLE_JOINTS] = TABLE("joints", joint_fields, fe__joint_record, joints),
-    [FE__TABLE_DISTANCE_JOINTS] = TABLE("distance joints", distance_fields, fe_distance_joint_def, distance_joints),
-    [FE__TABLE_BALL_JOINTS] = TABLE("ball joints", ball_fields, fe_ball_joint_def, ball_joints),
-    [FE__TABLE_HINGE_JOINTS] = TABLE("hinge joints", hinge_fields, fe_hinge_joint_def, hinge_joints),
-    [FE__TABLE_FIXED_JOINTS] = TABLE("fixed joints", fixed_fields, fe_fixed_joint_def, fixed_joints),
-    [FE__TABLE_CONFIGURABLE_JOINTS] =
-        TABLE("configurable joints", configurable_fields, fe_configurable_joint_def, configurable_joints),
-    [FE__TABLE_JOINT_ANCHORS] = TABLE("joint anchors", anchor_fields, fe__joint, joint_anchors),
-    [FE__TABLE_JOINT_FRAMES] = TABLE("joint frames", frame_fields, fe__joint_frame, joint_frames),
-    [FE__TABLE_JOINT_REACTIONS] = TABLE("joint reactions", reaction_fields, fe__joint_reaction, joint_reactions),
-    [FE__TABLE_JOINT_AXES] = TABLE("joint axes", axes_fields, fe__joint_axes, joint_axes),
-    [FE__TABLE_PAIRS] = TABLE("pairs", pair_fields, fe__pair, pairs),
-    [FE__TABLE_CONTACTS] = TABLE("contacts", contact_fields, fe__contact, contacts),
-    [FE__TABLE_TOUCHING] = TABLE("touching pairs", listed_fields, fe__slot_row, touching),
-    [FE__TABLE_POINTS] = TABLE("points", points_fields, fe__points, points),
-    [FE__TABLE_FEATURES] = TABLE("features", feature_fields, fe__features, features),
-    [FE__TABLE_EXTRAS] = TABLE("extras", extra_fields, fe__extra, extras),
-    [FE__TABLE_FREE_PAIRS] = TABLE("free pairs", listed_fields, fe__slot_row, free_pairs),
-    [FE__TABLE_OWED] = TABLE("owed exits", owed_fields, fe__owed_row, owed),
-    [FE__TABLE_AWAKE_BODIES] = TABLE("awake bodies", listed_fields, fe__slot_row, awake_bodies),
-    [FE__TABLE_AWAKE_PAIRS] = TABLE("awake pairs", listed_fields, fe__slot_row, awake_pairs),
-    [FE__TABLE_DEFERRALS] = TABLE("deferred pairs", deferral_fields, fe__deferral_row, deferrals),
-    [FE__TABLE_AWAKE_JOINTS] = TABLE("awake joints", listed_fields, fe__slot_row, awake_joints),
-    [FE__TABLE_PLANES] = TABLE("planes", listed_fields, fe__slot_row, planes),
-    [FE__TABLE_IGNORES] = TABLE("ignored pairs", ignore_fields, fe__ignore_row, ignores),
-    [FE__TABLE_FREE_IGNORES] = TABLE("free ignored pairs", listed_fields, fe__slot_row, free_ignores),
-    [FE__TABLE_ENCOUNTERS] = TABLE("encounters", encounter_fields, fe__encounter_row, encounters),
-    [FE__TABLE_FREE_ENCOUNTERS] = TABLE("free encounters", listed_fields, fe__slot_row, free_encounters),
-    [FE__TABLE_PAIR_EVENTS] = TABLE("pair events", pair_event_fields, fe__pair_event_record, pair_events),
-    [FE__TABLE_BODY_EVENTS] = TABLE("body events", body_event_fields, fe__body_event_record, body_events),
-    [FE__TABLE_HIT_EVENTS] = TABLE("hit events", hit_event_fields, fe__hit_event_record, hit_events),
-    [FE__TABLE_JOINT_EVENTS] = TABLE("joint events", joint_event_fields, fe__joint_event_record, joint_events),
-    [FE__TABLE_TREES] = TABLE("trees", tree_fields, fe__tree, trees),
-    [FE__TABLE_STATIC_NODES] = TABLE("nodes of the static tree", node_fields, fe__tree_node, static_nodes),
-    [FE__TABLE_MOVING_NODES] = TABLE("nodes of the moving tree", node_fields, fe__tree_node, moving_nodes),
+    [FE__TABLE_WORLD] = TABLE("world", world_fields, world),
+    [FE__TABLE_BODY_SLOTS] = TABLE("body slots", slot_fields, body_slots),
+    [FE__TABLE_SHAPE_SLOTS] = TABLE("shape slots", slot_fields, shape_slots),
+    [FE__TABLE_JOINT_SLOTS] = TABLE("joint slots", slot_fields, joint_slots),
+    [FE__TABLE_BODIES] = TABLE("bodies", body_fields, bodies),
+    [FE__TABLE_DRIFTS] = BESIDE("drifts", drift_fields, drifts),
+    [FE__TABLE_SHAPES] = TABLE("shapes", shape_fields, shapes),
+    [FE__TABLE_FORMS] = BESIDE("forms", form_fields, forms),
+    [FE__TABLE_ASSETS] = TABLE("assets", asset_fields, assets),
+    [FE__TABLE_JOINTS] = TABLE("joints", joint_fields, joints),
+    [FE__TABLE_DISTANCE_JOINTS] = TABLE("distance joints", distance_fields, distance_joints),
+    [FE__TABLE_BALL_JOINTS] = TABLE("ball joints", ball_fields, ball_joints),
+    [FE__TABLE_HINGE_JOINTS] = TABLE("hinge joints", hinge_fields, hinge_joints),
+    [FE__TABLE_FIXED_JOINTS] = TABLE("fixed joints", fixed_fields, fixed_joints),
+    [FE__TABLE_CONFIGURABLE_JOINTS] = TABLE("configurable joints", configurable_fields, configurable_joints),
+    [FE__TABLE_JOINT_ANCHORS] = TABLE("joint anchors", anchor_fields, joint_anchors),
+    [FE__TABLE_JOINT_FRAMES] = BESIDE("joint frames", frame_fields, joint_frames),
+    [FE__TABLE_JOINT_REACTIONS] = BESIDE("joint reactions", reaction_fields, joint_reactions),
+    [FE__TABLE_JOINT_AXES] = TABLE("joint axes", axes_fields, joint_axes),
+    [FE__TABLE_PAIRS] = TABLE("pairs", pair_fields, pairs),
+    [FE__TABLE_FOUND] = BESIDE("contacts", found_fields, found),
+    [FE__TABLE_PATCHES] = TABLE("patches", patch_fields, patches),
+    [FE__TABLE_TOUCHING] = TABLE("touching pairs", touching_fields, touching),
+    [FE__TABLE_POINTS] = BESIDE("points", points_fields, points),
+    [FE__TABLE_FEATURES] = BESIDE("features", feature_fields, features),
+    [FE__TABLE_EXTRAS] = BESIDE("extras", extra_fields, extras),
+    [FE__TABLE_FREE_PAIRS] = TABLE("free pairs", listed_fields, free_pairs),
+    [FE__TABLE_OWED] = TABLE("owed exits", owed_fields, owed),
+    [FE__TABLE_AWAKE_BODIES] = TABLE("awake bodies", listed_fields, awake_bodies),
+    [FE__TABLE_AWAKE_PAIRS] = TABLE("awake pairs", listed_fields, awake_pairs),
+    [FE__TABLE_DEFERRALS] = TABLE("deferred pairs", deferral_fields, deferrals),
+    [FE__TABLE_AWAKE_JOINTS] = TABLE("awake joints", listed_fields, awake_joints),
+    [FE__TABLE_PLANES] = TABLE("planes", listed_fields, planes),
+    [FE__TABLE_IGNORES] = TABLE("ignored pairs", ignore_fields, ignores),
+    [FE__TABLE_FREE_IGNORES] = TABLE("free ignored pairs", listed_fields, free_ignores),
+    [FE__TABLE_ENCOUNTERS] = TABLE("encounters", encounter_fields, encounters),
+    [FE__TABLE_FREE_ENCOUNTERS] = TABLE("free encounters", listed_fields, free_encounters),
+    [FE__TABLE_PAIR_EVENTS] = TABLE("pair events", pair_event_fields, pair_events),
+    [FE__TABLE_BODY_EVENTS] = TABLE("body events", body_event_fields, body_events),
+    [FE__TABLE_HIT_EVENTS] = TABLE("hit events", hit_event_fields, hit_events),
+    [FE__TABLE_JOINT_EVENTS] = TABLE("joint events", joint_event_fields, joint_events),
+    [FE__TABLE_TREES] = TABLE("trees", tree_fields, trees),
+    [FE__TABLE_STATIC_NODES] = TABLE("nodes of the static tree", node_fields, static_nodes),
+    [FE__TABLE_MOVING_NODES] = TABLE("nodes of the moving tree", node_fields, moving_nodes),
 };

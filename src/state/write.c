@@ -25,18 +25,6 @@ uint64_t fe__header_sum(const unsigned char *header)
     return fe__hash_end(&hash);
 }
 
-// ---- rows ----------------------------------------------------------------------------------------------------------
-static void put_rows(const fe_world *world, const fe__table *table, int32_t rows, unsigned char *out)
-{
-    fe__rows_block block;
-    for (int32_t first = 0, place = -1; first < rows; first += FE__BLOCK) {
-        int32_t count = fe__mini(rows - first, FE__BLOCK);
-        place = table->gather(world, place, count, &block);
-        table->put(&block, count, out);
-        out += (int64_t)count * table->row_size;
-    }
-}
-
 // ---- sections ------------------------------------------------------------------------------------------------------
 typedef struct writer {
     unsigned char *at;
@@ -44,26 +32,75 @@ typedef struct writer {
     uint32_t sections;
 } writer;
 
-// What it holds is written behind its header
-static void close_section(writer *w, uint32_t type, int64_t size)
+// What it holds is written behind its header, and padded
+static void close_section(writer *w, uint32_t type, int64_t size, uint64_t sum)
 {
-    unsigned char *content = w->at + FE__SECTION_HEADER;
-    int64_t whole = fe__padded(size);
-    memset(content + size, 0, (size_t)(whole - size));
-    uint64_t sum = fe__sum_of(content, whole);
     unsigned char *at = fe__put_u16(fe__put_u16(fe__put_u32(w->at, type), 1), 0);
-    fe__put_u64(fe__put_u64(at, (uint64_t)whole), sum);
-    w->at = content + whole;
+    fe__put_u64(fe__put_u64(at, (uint64_t)size), sum);
+    w->at += FE__SECTION_HEADER + size;
     w->sum = fe__join_sums(w->sum, sum);
     ++w->sections;
 }
 
-static void write_table(writer *w, const fe_world *world, uint32_t number)
+static int64_t pad(unsigned char *content, int64_t size)
 {
-    const fe__table *table = fe__tables + number;
-    int32_t rows = table->count(world);
-    put_rows(world, table, rows, fe__put_u64(w->at + FE__SECTION_HEADER, (uint64_t)rows));
-    close_section(w, number, FE__SECTION_ROWS + (int64_t)rows * table->row_size);
+    int64_t whole = fe__padded(size);
+    memset(content + size, 0, (size_t)(whole - size));
+    return whole;
+}
+
+// ---- tables, those with the same rows together ----------------------------------------------------------------------
+typedef struct rows_writer {
+    const fe__table *table;
+    unsigned char *content, *at; // of the section; of the next row
+    int32_t rows;
+    fe__sum sum; // of whole lines, as they are written: they are still near
+} rows_writer;
+
+static void put_block(rows_writer *r, const fe__rows_block *block, int32_t rows)
+{
+    r->table->put(block, rows, r->at);
+    r->at += (int64_t)rows * r->table->row_size;
+    int64_t lines = (r->at - r->content - r->sum.size) / FE__SUM_LINE * FE__SUM_LINE;
+    fe__sum_lines(&r->sum, r->content + r->sum.size, lines);
+}
+
+static unsigned char *open_rows(rows_writer *r, const fe_world *world, const fe__table *table, unsigned char *header)
+{
+    *r = (rows_writer){.table = table, .content = header + FE__SECTION_HEADER, .rows = table->count(world)};
+    r->at = fe__put_u64(r->content, (uint64_t)r->rows);
+    return header + fe__section_size(table, r->rows);
+}
+
+static void close_rows(writer *w, rows_writer *r)
+{
+    int64_t size = pad(r->content, r->at - r->content), summed = r->sum.size;
+    uint64_t sum = fe__sum_end(&r->sum, r->content + summed, size - summed);
+    close_section(w, (uint32_t)(r->table - fe__tables), size, sum);
+}
+
+// The table and those beside it. Returns the table behind them
+static int32_t write_tables(writer *w, const fe_world *world, int32_t first)
+{
+    enum { MOST = 4 };
+    rows_writer writers[MOST];
+    fe__rows_block block;
+    unsigned char *at = w->at;
+    int32_t count = 0;
+    do at = open_rows(writers + count, world, fe__tables + first + count, at);
+    while (++count < MOST && first + count < FE__TABLES && fe__tables[first + count].is_beside);
+    for (int32_t row = 0, place = -1; row < writers->rows; row += FE__BLOCK) {
+        int32_t rows = fe__mini(writers->rows - row, FE__BLOCK);
+        place = writers->table->gather(world, place, rows, &block);
+        put_block(writers, &block, rows);
+        for (rows_writer *r = writers + 1; r < writers + count; ++r) {
+            if (r->rows == 0) continue;
+            r->table->find(world, rows, &block);
+            put_block(r, &block, rows);
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) close_rows(w, writers + i);
+    return first + count;
 }
 
 // ---- contents of assets ---------------------------------------------------------------------------------------------
@@ -109,7 +146,8 @@ static void write_assets(writer *w, const fe_world *world)
         int64_t size = fe__asset_bytes(world->store, asset);
         fe__asset_write(world->store, asset, w->at + FE__SECTION_HEADER);
         fe__asset_seal(w->at + FE__SECTION_HEADER, size);
-        close_section(w, FE__SECTION_ASSET, size);
+        size = pad(w->at + FE__SECTION_HEADER, size);
+        close_section(w, FE__SECTION_ASSET, size, fe__sum_of(w->at + FE__SECTION_HEADER, size));
     }
 }
 
@@ -134,7 +172,7 @@ static void write_header(const writer *w, unsigned char *out, int32_t number)
 void fe__snapshot_write(const fe_world *world, int32_t with_assets, unsigned char *out)
 {
     writer w = {.at = out + FE__SNAPSHOT_HEADER};
-    for (uint32_t i = 0; i < FE__TABLES; ++i) write_table(&w, world, i);
+    for (int32_t i = 0; i < FE__TABLES;) i = write_tables(&w, world, i);
     if (with_assets) write_assets(&w, world);
     write_header(&w, out, world->number);
 }

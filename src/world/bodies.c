@@ -91,6 +91,7 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *def)
     fe__body *body = &world->bodies[index];
     uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
+    world->drifts[index] = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}; // equal states have equal bytes
     body->type = def->type;
     body->flags = initial_flags(def) | listed;
     body->serial = world->next_serial++;

@@ -58,7 +58,7 @@ static void saving_says_how_large_it_is_and_writes_no_less(void **state)
     FE_TRUE(fe_world_save(world, NULL, short_room, -1) == FE_ERROR_ARGUMENT);
     fe_save_options options;
     fe_save_options_init(&options, sizeof options);
-    options.flags = 2;
+    options.flags = 4;
     FE_TRUE(fe_world_save(world, &options, NULL, 0) == FE_ERROR_ARGUMENT);
     options.flags = 0, options.struct_size = 3;
     FE_TRUE(fe_world_save(world, &options, NULL, 0) == FE_ERROR_ARGUMENT);

@@ -16,6 +16,8 @@ namespace FeatherPhysics
         public AssetKey[] Keys;
         /// <summary>An asset of the world's store for each key.</summary>
         public AssetHandle[] Assets;
+        /// <summary>For bytes of SaveDiff: the snapshot that they were saved against. null: none.</summary>
+        public byte[] Base;
     }
 
     /// <summary>Where two snapshots first differ.</summary>
@@ -104,9 +106,16 @@ namespace FeatherPhysics
     {
         long Write(byte* destination, long capacity, bool withAssets)
         {
+            return Write(destination, capacity, withAssets ? NativeSave.Assets : 0, null, 0);
+        }
+
+        long Write(byte* destination, long capacity, NativeSave flags, byte* baseAt, long baseSize)
+        {
             NativeSaveOptions options;
             Native.save_options_init(&options, (uint)sizeof(NativeSaveOptions));
-            if (withAssets) options.Flags = NativeSave.Assets;
+            options.Flags = flags;
+            options.Base = (IntPtr)baseAt;
+            options.BaseSize = baseSize;
             long size = Native.world_save(P, &options, destination, capacity);
             GC.KeepAlive(this);
             return size;
@@ -142,7 +151,42 @@ namespace FeatherPhysics
             return bytes;
         }
 
-        /// What the library takes, but for the addresses of the two arrays, which the caller pins.
+        /// <summary>Bytes that <see cref="SaveDiff(Span{byte}, ReadOnlySpan{byte})"/> needs room for.</summary>
+        /// <param name="baseBytes">of Save()</param>
+        public long GetDiffRoom(ReadOnlySpan<byte> baseBytes)
+        {
+            byte none = 0;
+            fixed (byte* start = &MemoryMarshal.GetReference(baseBytes))
+                return Write(null, 0, NativeSave.Diff, Snapshot.OrEmpty(start, &none), baseBytes.Length);
+        }
+
+        /// <summary>
+        /// Writes what differs from a snapshot: from one step to the next a tenth of the whole or less. Who restores
+        /// it has that snapshot, too. Returns how many bytes there are. BadDataException when the base is no whole
+        /// snapshot, BadArgumentException when the destination is smaller than <see cref="GetDiffRoom"/>.
+        /// </summary>
+        /// <param name="destination">begins with them afterwards; what stands behind them means nothing</param>
+        /// <param name="baseBytes">of Save(), not in the destination</param>
+        public int SaveDiff(Span<byte> destination, ReadOnlySpan<byte> baseBytes)
+        {
+            long size;
+            byte none = 0;
+            fixed (byte* start = &MemoryMarshal.GetReference(destination))
+            fixed (byte* baseAt = &MemoryMarshal.GetReference(baseBytes))
+                size = Write(start, destination.Length, NativeSave.Diff, Snapshot.OrEmpty(baseAt, &none),
+                    baseBytes.Length);
+            CheckLength(size, destination.Length, "World.SaveDiff", "destination");
+            return (int)size;
+        }
+        /// <summary>The same in an array of its own.</summary>
+        public byte[] SaveDiff(ReadOnlySpan<byte> baseBytes)
+        {
+            byte[] bytes = new byte[GetDiffRoom(baseBytes)];
+            Array.Resize(ref bytes, SaveDiff(bytes, baseBytes));
+            return bytes;
+        }
+
+        /// What the library takes, but for the addresses of the arrays, which the caller pins.
         static NativeRestoreOptions Prepare(RestoreOptions options, string where, out AssetKey[] keys,
             out AssetHandle[] assets)
         {
@@ -152,6 +196,7 @@ namespace FeatherPhysics
             assets = options == null ? null : options.Assets;
             native.NewNumber = options != null && options.NewNumber ? 1 : 0;
             native.AssetCount = keys == null ? 0 : keys.Length;
+            native.BaseSize = options == null || options.Base == null ? 0 : options.Base.Length;
             int assetCount = assets == null ? 0 : assets.Length;
             CheckLength(native.AssetCount, assetCount, where, "Assets");
             CheckLength(assetCount, native.AssetCount, where, "Keys");
@@ -179,7 +224,9 @@ namespace FeatherPhysics
             fixed (byte* start = &MemoryMarshal.GetReference(bytes))
             fixed (AssetKey* keysAt = keys)
             fixed (AssetHandle* assetsAt = assets)
+            fixed (byte* baseAt = options == null ? null : options.Base)
             {
+                native.Base = (IntPtr)baseAt;
                 native.Keys = (IntPtr)keysAt;
                 native.Assets = (IntPtr)assetsAt;
                 int result = Native.world_restore(P, &native, Snapshot.OrEmpty(start, &none), bytes.Length);
@@ -211,7 +258,9 @@ namespace FeatherPhysics
             fixed (byte* start = &MemoryMarshal.GetReference(bytes))
             fixed (AssetKey* keysAt = keys)
             fixed (AssetHandle* assetsAt = assets)
+            fixed (byte* baseAt = options == null ? null : options.Base)
             {
+                native.Base = (IntPtr)baseAt;
                 native.Keys = (IntPtr)keysAt;
                 native.Assets = (IntPtr)assetsAt;
                 return new World(def, pool, store, &native, Snapshot.OrEmpty(start, &none), bytes.Length);

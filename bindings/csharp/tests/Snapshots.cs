@@ -151,6 +151,33 @@ namespace FeatherPhysics.Tests
             }
         }
 
+        public static void A_difference_goes_with_its_base()
+        {
+            using (Store store = new Store())
+            using (World world = Pile(store, 1))
+            {
+                Run(world, 30);
+                byte[] first = world.Save();
+                Run(world, 1);
+                byte[] whole = world.Save(), diff = world.SaveDiff(first);
+                Check.True(diff.Length < whole.Length, "it is smaller");
+                Check.True(world.SaveDiff(whole).Length <= 64, "nothing changed");
+                Run(world, 5);
+                RestoreOptions options = new RestoreOptions { Base = first };
+                Check.True(world.Restore(diff, options) && Equal(world.Save(), whole), "in place");
+                using (World loaded = World.Load(diff, null, null, store, options))
+                    Check.True(Equal(loaded.Save(), whole), "anew");
+                Check.Throws<BadDataException>(() => world.Restore(diff), "base");
+                Check.Throws<BadDataException>(() => world.Restore(diff, new RestoreOptions { Base = whole }),
+                    "another base");
+                Check.Throws<BadDataException>(() => Snapshot.Check(diff), "difference");
+                Check.Throws<BadDataException>(() => world.SaveDiff(diff), "base");
+                Check.Throws<BadDataException>(() => world.SaveDiff(ReadOnlySpan<byte>.Empty), "base");
+                Check.Throws<BadArgumentException>(() => world.SaveDiff(new byte[8], first), "destination");
+                Check.True(Equal(world.Save(), whole), "nothing has changed");
+            }
+        }
+
         public static void A_snapshot_tells_what_is_in_it()
         {
             using (Store store = new Store())
@@ -280,7 +307,7 @@ namespace FeatherPhysics.Tests
                     refuse(saved, "byte");
                     saved[at] ^= 1;
                 }
-                newer[8] = 2; // the major number
+                newer[8] = 9; // the major number
                 Check.Throws<NewerVersionException>(() => world.Restore(newer), "newer library");
                 Check.Throws<NewerVersionException>(() => World.Load(newer, null, null, store), "newer library");
                 Check.Throws<NewerVersionException>(() => Snapshot.Check(newer), "newer library");

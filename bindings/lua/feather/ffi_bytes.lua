@@ -49,6 +49,11 @@ end
 local SaveOptions, RestoreOptions = ffi.typeof("fe_save_options"), ffi.typeof("fe_restore_options")
 local Definition, Info = ffi.typeof("fe_world_def"), ffi.typeof("fe_snapshot_info")
 
+-- The string is its owner's, who keeps it until the call that reads the record.
+function core.set_base(record, bytes)
+    record.base, record.base_size = ffi.cast("const char *", check_bytes(bytes)), #bytes
+end
+
 function core.world_save(world, options)
     local pointer = env.world(world)
     env.record(options, SaveOptions, "options")

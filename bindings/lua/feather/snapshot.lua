@@ -6,35 +6,40 @@ local worlds = require("feather.world")
 local core, World = native.core, objects.World
 local snapshots = {}
 
-local SAVES = { assets = 1 } -- bits of fe_save
+local SAVES = { assets = 1, base = 2 } -- bits of fe_save
 -- A string; equal worlds have equal ones. { assets = true } writes what its hulls, meshes and heightfields hold, too:
--- where it is loaded, none need be there.
+-- where it is loaded, none need be there. { base = string }, of a save without one: what differs from it alone.
 function World:save(given)
     local record
     if given ~= nil then
         options.check(given, SAVES, "options of save")
         record = core.save_options()
         record.flags = given.assets ~= nil and options.switch(given.assets, "assets") * SAVES.assets or 0
+        if given.base ~= nil then
+            record.flags = record.flags + SAVES.base
+            native.set_base(record, given.base)
+        end
     end
     return (select(2, core.world_save(self.native, record)))
 end
 
 -- ---- back -----------------------------------------------------------------------------------------------------------
 
-local function restore_options(new_number)
-    if new_number == nil then return nil end
+local function restore_options(new_number, base)
+    if new_number == nil and base == nil then return nil end
     local record = core.restore_options()
-    options.put(record, "fe_restore_options", "newNumber", new_number)
+    if new_number ~= nil then options.put(record, "fe_restore_options", "newNumber", new_number) end
+    if base ~= nil then native.set_base(record, base) end
     return record
 end
 
-local KNOWN = { newNumber = true }
+local KNOWN = { newNumber = true, base = true }
 -- Makes the world the saved one. Returns "foreign" when the string is from a library whose results differ: then it goes
 -- on, not bit for bit. Objects that are gone are forgotten, with their user data. { newNumber = true }: handles have
--- this world's number, not that of the saved one.
+-- this world's number, not that of the saved one. { base = string }: what a difference was saved against.
 function World:restore(bytes, given)
-    local new_number = given ~= nil and options.check(given, KNOWN, "options of restore").newNumber or nil
-    local foreign = core.world_restore(self.native, restore_options(new_number), bytes)
+    local known = given ~= nil and options.check(given, KNOWN, "options of restore") or {}
+    local foreign = core.world_restore(self.native, restore_options(known.newNumber, known.base), bytes)
     objects.forget_ended(self)
     if foreign then return "foreign" end
 end

@@ -33,6 +33,26 @@ end
 
 TestSnapshots = {}
 
+-- What differs from a base, and back
+function TestSnapshots.testADifferenceGoesWithItsBase()
+    local world = scene()
+    steps(world, 40)
+    local base = world:save()
+    steps(world, 1)
+    local whole, diff = world:save(), world:save({ base = base })
+    lu.assertTrue(#diff < #whole / 2)
+    steps(world, 5)
+    world:restore(diff, { base = base })
+    lu.assertEquals(world:save(), whole)
+    lu.assertTrue(#world:save({ base = whole }) <= 64)
+    fails("base", world.restore, world, diff)
+    fails("another base", world.restore, world, diff, { base = whole })
+    fails("base", world.save, world, { base = diff })
+    fails("string", world.save, world, { base = 7 })
+    fails("string", world.restore, world, diff, { base = {} })
+    lu.assertEquals(world:save(), whole)
+end
+
 -- Back and on: the same bits. Objects that are gone are forgotten, and bad calls are told.
 function TestSnapshots.testAHistoryGoesBackAndOn()
     local world, bodies = scene()
@@ -327,7 +347,7 @@ function TestSnapshots.testWrongOptions()
     lu.assertFalse(pcall(core.world_restore, world.native, core.save_options(), saved))
     lu.assertFalse(pcall(core.world_load, core.restore_options(), nil, saved))
     local flags = core.save_options()
-    flags.flags = 2
+    flags.flags = 4
     fails("flags", core.world_save, world.native, flags)
     world:destroy()
     fails("the world is destroyed", world.save, world)

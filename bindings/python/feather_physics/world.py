@@ -130,19 +130,27 @@ class World:
             if self._recording is not None:
                 self._recording.close()
 
-    def save(self, *, assets: bool = False) -> bytes:
+    def save(self, *, assets: bool = False, base: Optional[bytes] = None) -> bytes:
         """The whole world as bytes: the same on every machine, whatever the workers. What World.load() makes of them
-        goes on bit for bit. With assets their contents are inside, else their keys alone."""
+        goes on bit for bit. With assets their contents are inside, else their keys alone. With a base, which save()
+        gave without one, what differs from it alone: restore() needs the same base."""
         options = _flat.save_options()
-        options.flags = _flat.FE_SAVE_ASSETS if assets else 0
+        options.flags = (_flat.FE_SAVE_ASSETS if assets else 0) | (_flat.FE_SAVE_DIFF if base is not None else 0)
+        if base is not None:
+            options.set_base(base)
         saved: bytes = _flat.world_save(self._capsule, options)
         return saved
 
-    def restore(self, data: Any) -> bool:
+    def restore(self, data: Any, *, base: Optional[bytes] = None) -> bool:
         """Makes the world the saved one, of whichever world the bytes are. An error changes nothing. Handles of what
         was made since are stale, and may be given again to something else: objects of such things are not to be kept.
-        False: another library saved it whose results differ, so that it goes on, but not bit for bit."""
-        same: bool = _flat.world_restore(self._capsule, None, data)
+        Base: what the bytes were saved against, if they are a difference. False: another library saved it whose results
+        differ, so that it goes on, but not bit for bit."""
+        options = None
+        if base is not None:
+            options = _flat.restore_options()
+            options.set_base(base)
+        same: bool = _flat.world_restore(self._capsule, options, data)
         self._forget_ended()
         return same
 

@@ -48,6 +48,30 @@ def play(world: World, steps: int) -> int:
     return world.hash
 
 
+def test_a_difference_goes_with_its_base() -> None:
+    store = Store()
+    world = pile(store)
+    play(world, 40)
+    base = world.save()
+    play(world, 1)
+    whole, diff = world.save(), world.save(base=base)
+    assert len(diff) < len(whole) // 2
+    play(world, 5)
+    assert world.restore(diff, base=base) is True and world.save() == whole
+    assert len(world.save(base=whole)) <= 64
+    twin = World(store=store)
+    assert twin.restore(diff, base=base) is True and twin.save() == whole
+    assert twin.restore(whole, base=base) is True
+    for bad in (None, whole, base[:-8], diff, b""):
+        with pytest.raises(DataError):
+            world.restore(diff, base=bad)
+    with pytest.raises(DataError):
+        world.save(base=diff)
+    with pytest.raises(DataError):
+        snapshot_info(diff)
+    assert world.save() == whole
+
+
 def test_a_restored_world_goes_on_bit_for_bit() -> None:
     world = pile()
     play(world, 40)
