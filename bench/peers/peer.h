@@ -94,9 +94,9 @@ typedef struct bench_engine {
 
 extern const bench_engine bench_feather;
 struct fe_world *bench_feather_world(bench_world *world); ///< of Feather's adapter
-extern const bench_engine bench_bullet; ///< with FE_BENCH_BULLET
-extern const bench_engine bench_ode;    ///< with FE_BENCH_ODE
-extern const bench_engine bench_box2d;  ///< with FE_BENCH_BOX2D; planar scenes only
+extern const bench_engine bench_bullet;                   ///< with FE_BENCH_BULLET
+extern const bench_engine bench_ode;                      ///< with FE_BENCH_ODE
+extern const bench_engine bench_box2d;                    ///< with FE_BENCH_BOX2D; planar scenes only
 
 /// An engine that the program knows by name; `engine` is NULL when it was built without.
 typedef struct bench_engine_entry {

@@ -77,7 +77,7 @@ struct fe_store {
     fe__memory memory;
     fe__entry entry; // in the registry, which counts the worlds
     fe__id_pool ids;
-    int64_t editions; // of all assets so far
+    int64_t editions;              // of all assets so far
     fe__asset *chunks[FE__CHUNKS]; // each written once
     fe__store_member *first_member;
 };

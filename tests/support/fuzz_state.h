@@ -77,7 +77,7 @@ int32_t fuzz_overlap_shapes(fuzz *f);
 int32_t fuzz_overlap_bounds(fuzz *f);
 int32_t fuzz_read_overlaps(fuzz *f);
 // fuzz_terrain.c
-fe_asset fuzz_asset(fuzz *f);       // some asset, or what is none
+fe_asset fuzz_asset(fuzz *f); // some asset, or what is none
 void fuzz_scale(fuzz *f, fe_geometry *geometry);
 int32_t fuzz_create_field(fuzz *f); // or a hull
 int32_t fuzz_place_field(fuzz *f);

@@ -126,8 +126,7 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
     if (n == 0) return; // then there may be no items at all
     s->built.overflow += n;
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
-    for (int32_t i = 0; i < n; ++i)
-        s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].points];
+    for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].points];
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) {
         const fe__linked *c = b->linked + s->sort_items[i].value;
