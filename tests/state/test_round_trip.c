@@ -42,12 +42,15 @@ static void add_ground(fe_world *world)
 }
 
 // ---- calls ---------------------------------------------------------------------------------------------------------
-// Assets are the store's, not the world's: after a moment none is made, edited or destroyed. A filter is the host's
-static int32_t is_allowed(const char *name, int32_t after)
+// Assets are the store's, not the world's: none is destroyed, and after a moment none is made or edited. What makes one
+// destroys one, where there is no room for more. A filter is the host's
+static int32_t is_allowed(const fuzz *f, const char *name, int32_t after)
 {
+    const int32_t room = sizeof f->assets / sizeof *f->assets;
     if (!strcmp(name, "no memory") || !strcmp(name, "fe_world_set_pair_filter") || !strcmp(name, "fe_asset_destroy"))
         return 0;
-    return !after || (strcmp(name, "fe_heightfield_create") && strcmp(name, "fe_heightfield_set_heights"));
+    if (!strcmp(name, "fe_heightfield_create")) return !after && f->asset_count < room;
+    return !after || strcmp(name, "fe_heightfield_set_heights");
 }
 
 static void call_some(fuzz *f, int32_t count, int32_t after)
@@ -55,7 +58,7 @@ static void call_some(fuzz *f, int32_t count, int32_t after)
     for (int32_t i = 0; i < count; ++i) {
         const fuzz_call *c = fuzz_calls + fuzz_byte(f) % fuzz_call_count;
         f->call_name = c->name, f->steps = 0, f->call_count += 1;
-        if (is_allowed(c->name, after)) (void)c->run(f);
+        if (is_allowed(f, c->name, after)) (void)c->run(f);
     }
 }
 
