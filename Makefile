@@ -325,7 +325,7 @@ INSTALLED = $(INCLUDEDIR)/feather.h $(LIBDIR)/libfeather.a $(LIBDIR)/libfeather.
             $(LIBDIR)/pkgconfig/feather.pc $(addprefix $(CMAKE_DIR)/feather-,config.cmake config-version.cmake targets.cmake)
 
 install: all
-	mkdir -p $(DESTDIR)$(INCLUDEDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(CMAKE_DIR)
+	$(if $(WINDOWS),$(error make install lays out what Linux wants: on Windows install with CMake))mkdir -p $(DESTDIR)$(INCLUDEDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(CMAKE_DIR)
 	install -m 644 include/feather.h $(DESTDIR)$(INCLUDEDIR)/feather.h
 	install -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)/libfeather.a
 	install -m 755 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libfeather.so.$(VERSION)

@@ -62,7 +62,9 @@ void fe__os_wake(fe__sleep_place *place, _Atomic uint32_t *word, int32_t count)
 }
 
 // ---- a thread's end ------------------------------------------------------------------------------------------------
-// Storage of fibers, because Windows calls back at its end; a thread that makes no fibers is one. There is no fork.
+// Storage of fibers, because Windows calls back at its end; a thread that makes no fibers is one. A fiber may end
+// before its thread does, which would go on using what `ended` gives away: a thread that first reads inside a fiber
+// never gives it back. There is no fork.
 
 static DWORD slot = FLS_OUT_OF_INDEXES;
 static INIT_ONCE once = INIT_ONCE_STATIC_INIT;
@@ -84,7 +86,7 @@ void fe__os_at_thread_end(const fe__end_calls *calls, void *argument)
 {
     atomic_store(&end_calls, calls);
     InitOnceExecuteOnce(&once, prepare, NULL, NULL);
-    if (slot != FLS_OUT_OF_INDEXES) FlsSetValue(slot, argument);
+    if (slot != FLS_OUT_OF_INDEXES && !IsThreadAFiber()) FlsSetValue(slot, argument);
 }
 
 void fe__os_forget_thread_ends(void)
