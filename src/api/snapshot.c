@@ -58,7 +58,7 @@ static int64_t save(const fe_world *world, int32_t with_assets, const fe__snapsh
     fe__snapshot_write(world, with_assets, out + (room - size));
     if (!base) return size;
     int64_t written = fe__delta_write(out, size, base);
-    if (written) return written;
+    if (written && written < size) return written;
     fe__snapshot_write(world, with_assets, out);
     return size;
 }
@@ -86,7 +86,8 @@ int64_t fe_world_save(const fe_world *world, const fe_save_options *options, voi
 
 // ---- assets of a snapshot ------------------------------------------------------------------------------------------
 
-// Where they are: what the caller says, and what was in the bytes
+// Where they are: what the caller says, and what was in the bytes. Each has a use of ours, so that no other thread's
+// call ends it
 typedef struct known_assets {
     fe__asset_key *keys;
     int32_t *assets;
@@ -111,11 +112,11 @@ static fe_result open_known(const char *function, fe_world *world, int64_t capac
     return FE_OK;
 }
 
-static fe_result take_given(const char *function, const fe_store *store, const fe_restore_options *options,
-                            known_assets *k)
+static fe_result take_given(const char *function, fe_store *store, const fe_restore_options *options, known_assets *k)
 {
     for (int32_t i = 0; i < options->asset_count; ++i, ++k->count) {
         FE_TRY(fe__find_asset(function, "assets", store, options->assets[i], k->assets + i));
+        fe__asset_retain(store, k->assets[i]);
         memcpy(k->keys + i, options->keys + i, sizeof *k->keys);
     }
     return FE_OK;
@@ -135,6 +136,7 @@ static fe_result make_asset(const char *function, fe_store *store, const unsigne
     int32_t index = fe__id_slot_of(made);
     fe__asset_key key = fe__asset_key_of(store, index);
     int32_t first = fe__store_find_key(store, key, 0), is_new = first == index;
+    fe__asset_retain(store, first);
     if (is_new)
         k->made[k->made_count++] = made;
     else
@@ -158,6 +160,7 @@ static void close_known(fe_world *world, known_assets *k, fe_result result)
     fe__store_lock(world->store);
     for (int32_t i = 0; i < k->made_count && result < 0; ++i)
         fe__asset_destroy(world->store, fe__id_slot_of(k->made[i]));
+    for (int32_t i = 0; i < k->count; ++i) fe__asset_release(world->store, k->assets[i]);
     fe__store_unlock(world->store);
     if (k->keys) fe__release(&world->memory, k->keys, known_size(k));
 }

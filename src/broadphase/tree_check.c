@@ -86,6 +86,14 @@ static int32_t check_nodes(walk *at, int32_t *out_node)
     return at->proxies == tree->proxy_count && at->nodes == tree->node_count - tree->dead;
 }
 
+// Building anew and closing gaps take each node that has a parent for one that is met
+static int32_t count_dead(const fe__tree *tree)
+{
+    int32_t dead = 0;
+    for (int32_t i = 1; i < tree->node_count; ++i) dead += tree->nodes[i].parent < 0;
+    return dead;
+}
+
 int32_t fe__tree_check(fe__tree *tree, int32_t (*takes)(void *context, int32_t proxy), void *context, int32_t *out_node)
 {
     walk at = {tree, takes, context, 1, 0, 0};
@@ -95,5 +103,6 @@ int32_t fe__tree_check(fe__tree *tree, int32_t (*takes)(void *context, int32_t p
             tree->nodes[i].lane >= FE_TREE_WIDTH)
             return 0;
     }
-    return tree->node_count == 0 || (tree->nodes[0].parent == -1 && check_nodes(&at, out_node));
+    return tree->node_count == 0 ||
+           (tree->nodes[0].parent == -1 && count_dead(tree) == tree->dead && check_nodes(&at, out_node));
 }

@@ -16,6 +16,8 @@
 #define FARTHEST 1e20 // m: beyond what a body can reach
 #define UNIT_ERROR 1e-3f
 
+enum { NO_ASSET = -1 }; // in a form, until that is found
+
 static int32_t is_rotation(const float *q)
 {
     return fe__absf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0f) < UNIT_ERROR;
@@ -203,6 +205,7 @@ static int32_t take_shape(fe__build *b, int32_t slot, int32_t row)
     fe__take_row(b->snapshot, FE__TABLE_SHAPES, row, shape);
     fe__take_row(b->snapshot, FE__TABLE_FORMS, row, &numbers);
     shape->form = fe__form_of_numbers(&numbers);
+    if (fe__form_has_asset(&shape->form)) shape->form.field = NO_ASSET;
     if (!check_shape(b, shape, slot)) return 0;
     shape->body_serial = b->world->bodies[shape->body].serial;
     b->world->wants_hits |= (shape->events & FE_SHAPE_EVENTS_HIT) != 0;
@@ -301,14 +304,15 @@ static void add_use(fe__build *b, int32_t index, int32_t first_user)
     fe__asset_retain(w->store, index);
 }
 
-// Every shape that has it gets its form. `users` counts those, so that no list goes round
+// Every shape that has it gets its form, once. `users` counts those
 static int32_t give_form(fe__build *b, int32_t index, int32_t first_user, int32_t *users)
 {
     fe_world *w = b->world;
     const fe__form form = fe__asset_form(w->store, index);
     for (int32_t slot = first_user; slot >= 0; slot = w->shapes[slot].next_user) {
         if (slot >= w->shape_ids.slot_count || !is_slot_used(&w->shape_ids, slot) ||
-            !fe__forms_are_alike(&w->shapes[slot].form, &form) || --*users < 0)
+            w->shapes[slot].form.field != NO_ASSET || !fe__forms_are_alike(&w->shapes[slot].form, &form) ||
+            --*users < 0)
             return fe__snapshot_refuse(b->snapshot, "assets: shape %d does not have that of %d", (int)slot,
                                        (int)first_user);
         w->shapes[slot].form = form;

@@ -27,7 +27,7 @@ static int32_t check_counts(fe__build *b, const fe__tree *tree, fe__table_number
 {
     int32_t rows = fe__rows_of(b->snapshot, table);
     if (tree->node_count == rows && tree->node_capacity >= rows && tree->node_capacity <= fe__most_nodes(tree) &&
-        tree->promised <= FE_ID_MAX_SLOTS && (int64_t)rows + tree->promised <= tree->node_capacity &&
+        tree->promised <= fe__most_promised(tree) && (int64_t)rows + tree->promised <= tree->node_capacity &&
         tree->dead <= rows && (tree->proxy_count > 0) == (rows > 0) && tree->depth <= DEEPEST)
         return 1;
     return fe__snapshot_refuse(b->snapshot, "%s: %d nodes of %d, %d promised, %d deep", fe__tables[table].name,

@@ -10,7 +10,7 @@
 static const unsigned char magic[8] = {'F', 'E', 'A', 'D', 'E', 'L', 'T', 0x1A};
 
 // Places in the header
-enum { AT_BASE = 16, AT_SIZE = 32, AT_RUNS = 40, AT_SUM = 48 };
+enum { AT_NUMBER = 12, AT_BASE = 16, AT_SIZE = 32, AT_RUNS = 40, AT_SUM = 48 };
 enum { WORD = 4, WIDE = 8, BITS = 7, MORE = 1 << BITS };
 
 static uint64_t sum_of_base(const unsigned char *base)
@@ -173,9 +173,19 @@ static int32_t is_same_key(const aligned *a, int64_t now, int64_t base)
     return memcmp(a->now + now * a->row_size, a->base + base * a->row_size, (size_t)a->size) == 0;
 }
 
+enum { WINDOW = 32 }; // rows that may be gone, or new, at once
+
+static int32_t comes_later(const aligned *a, int64_t now, int64_t base)
+{
+    if (base == a->base_rows) return 1;
+    for (int64_t i = now + 1; i < a->now_rows && i <= now + WINDOW; ++i)
+        if (is_same_key(a, i, base)) return 1;
+    return 0;
+}
+
+// A row that neither has is taken for one that was replaced
 static void take_rows(writer *w, const aligned *a, int64_t row_size)
 {
-    enum { WINDOW = 32 }; // rows of the base that may be gone at once
     int64_t i = 0, j = 0;
     while (i < a->now_rows) {
         int64_t n = 0, gone = 0;
@@ -184,13 +194,13 @@ static void take_rows(writer *w, const aligned *a, int64_t row_size)
         i += n, j += n;
         if (i == a->now_rows) break;
         while (gone < WINDOW && j + gone < a->base_rows && !is_same_key(a, i, j + gone)) ++gone;
-        if (gone < WINDOW && j + gone < a->base_rows) {
-            add_skipped(w, gone * row_size);
-            j += gone;
-        } else {
-            add_added(w, row_size);
-            ++i;
-        }
+        int64_t is_gone = gone < WINDOW && j + gone < a->base_rows, is_new = is_gone || comes_later(a, i, j);
+        int64_t skipped = is_gone ? gone : !is_new && j < a->base_rows;
+        add_skipped(w, skipped * row_size);
+        j += skipped;
+        if (is_gone) continue;
+        add_added(w, row_size);
+        ++i;
     }
     add_skipped(w, (a->base_rows - j) * row_size);
 }
@@ -209,13 +219,13 @@ static void take_table(writer *w, const fe__snapshot *now, const fe__snapshot *b
     take_in_place(w, fe__padded(now_size) - now_size, fe__padded(base_size) - base_size);
 }
 
-static int64_t close(writer *w, unsigned char *room, int64_t size, const fe__snapshot *base)
+static int64_t close(writer *w, unsigned char *room, int64_t size, uint32_t number, const fe__snapshot *base)
 {
     unsigned char *runs = room + FE__DELTA_HEADER;
     int64_t written = w->at - runs, padded = fe__padded(written);
     memset(w->at, 0, (size_t)(padded - written));
     unsigned char *at = fe__put_bytes(room, magic, sizeof magic);
-    at = fe__put_u32(fe__put_u16(fe__put_u16(at, FE__DELTA_MAJOR), 0), 0);
+    at = fe__put_u32(fe__put_u16(fe__put_u16(at, FE__DELTA_MAJOR), 0), number);
     at = fe__put_u64(fe__put_u64(at, (uint64_t)base->size), sum_of_base(base->bytes));
     at = fe__put_u64(fe__put_u64(at, (uint64_t)size), (uint64_t)padded);
     fe__put_u64(at, sum_of_all(room, padded));
@@ -228,11 +238,12 @@ int64_t fe__delta_write(unsigned char *room, int64_t size, const fe__snapshot *b
     const unsigned char *bytes = room + fe__delta_room(size) - size;
     if (!fe__snapshot_outline(&now, bytes, size)) return 0;
     writer w = {.at = room + FE__DELTA_HEADER, .now = bytes, .base = base->bytes};
+    uint32_t number = word_of(bytes + FE__AT_NUMBER);
     take_both(&w, FE__SNAPSHOT_HEADER);
     for (int32_t i = 0; i < FE__TABLES && !w.is_full; ++i) take_table(&w, &now, base, (fe__table_number)i);
     if (!w.is_full) take_in_place(&w, bytes + size - w.now, base->bytes + base->size - w.base);
     end_run(&w);
-    return w.is_full ? 0 : close(&w, room, size, base);
+    return w.is_full ? 0 : close(&w, room, size, number, base);
 }
 
 // ---- reading -------------------------------------------------------------------------------------------------------
@@ -247,6 +258,7 @@ int64_t fe__delta_open(fe__snapshot *s, const void *bytes, int64_t size, const v
     const unsigned char *at = (const unsigned char *)bytes + sizeof magic;
     if (size < FE__DELTA_HEADER) return fe__snapshot_refuse(s, "the difference is cut");
     uint32_t major = fe__take_u16(&at);
+    if (major == 0) return fe__snapshot_refuse(s, "there is no format 0 of a difference");
     if (major > FE__DELTA_MAJOR) {
         fe__snapshot_refuse(s, "format %u of a difference is of a newer library", (unsigned)major);
         return fe__snapshot_fail(s, FE_ERROR_VERSION);
@@ -266,6 +278,7 @@ int64_t fe__delta_open(fe__snapshot *s, const void *bytes, int64_t size, const v
     if (whole % 8 || whole < FE__SNAPSHOT_HEADER || whole > most)
         return fe__snapshot_refuse(s, "byte %d: %llu bytes come of no such difference", AT_SIZE,
                                    (unsigned long long)whole);
+    if (whole > PTRDIFF_MAX) return fe__snapshot_fail(s, FE_ERROR_MEMORY);
     return (int64_t)whole;
 }
 
@@ -326,6 +339,8 @@ int32_t fe__delta_apply(fe__snapshot *s, const void *bytes, int64_t size, const 
     reader r = {first + FE__DELTA_HEADER, first + size, from, from + base_size, out, out + out_size, 1};
     while (r.is_sound && r.out < r.out_end) take_run(&r);
     for (; r.at < r.end; ++r.at) r.is_sound &= *r.at == 0;
+    // no sum counts the world's number: a base of the same state may have another
+    fe__put_u32(out + FE__AT_NUMBER, word_of(first + AT_NUMBER));
     return r.is_sound ||
            fe__snapshot_refuse(s, "the runs of the difference do not make %lld bytes", (long long)out_size);
 }

@@ -1,6 +1,6 @@
 // delta.h - a snapshot as what differs from another one, its base.
 //
-//   header    0  magic (8 bytes) | major, minor (2 each) | 0 (4)
+//   header    0  magic (8 bytes) | major, minor (2 each) | the world's number (4)
 //            16  size of the base (8) | its sum (8) | size of the snapshot (8) | size of what follows (8) | sum (8)
 //   runs      words of 4 bytes of the snapshot, in their order. Of each run four numbers, of 7 bits a byte, the lowest
 //             first: 2 same + more | changed | if more: skipped | added. Then the changed words and those added, as

@@ -122,18 +122,24 @@ typedef struct section {
     uint64_t sum;
 } section;
 
+// As it is told
+static section section_at(const fe__snapshot *s, int64_t at)
+{
+    const unsigned char *in = s->bytes + at;
+    section told = {0};
+    told.type = fe__take_u32(&in), told.version = fe__take_u16(&in), told.flags = fe__take_u16(&in);
+    told.size = (int64_t)fe__take_u64(&in);
+    told.sum = fe__take_u64(&in);
+    told.content = in;
+    return told;
+}
+
 static int32_t read_section(fe__snapshot *s, int64_t at, section *out)
 {
     if (s->size - at < FE__SECTION_HEADER) return fe__snapshot_refuse(s, "byte %lld: a section is cut", (long long)at);
-    const unsigned char *in = s->bytes + at;
-    out->type = fe__take_u32(&in), out->version = fe__take_u16(&in), out->flags = fe__take_u16(&in);
-    uint64_t size = fe__take_u64(&in);
-    out->sum = fe__take_u64(&in);
-    out->content = in;
-    out->size = (int64_t)size;
-    if (size % 8 || size > (uint64_t)(s->bytes + s->size - in))
-        return fe__snapshot_refuse(s, "byte %lld: section %u is cut", (long long)at, (unsigned)out->type);
-    return 1;
+    *out = section_at(s, at);
+    if (out->size % 8 == 0 && (uint64_t)out->size <= (uint64_t)(s->bytes + s->size - out->content)) return 1;
+    return fe__snapshot_refuse(s, "byte %lld: section %u is cut", (long long)at, (unsigned)out->type);
 }
 
 static int32_t check_sum(fe__snapshot *s, const section *in, uint64_t sum)
@@ -263,13 +269,10 @@ int32_t fe__listed_slot(const fe__snapshot *s, fe__table_number number, int32_t 
 const unsigned char *fe__next_asset_bytes(const fe__snapshot *s, int64_t *at, int64_t *out_size)
 {
     while (*at && *at < s->size) {
-        const unsigned char *in = s->bytes + *at;
-        uint32_t type = fe__take_u32(&in);
-        in += sizeof(uint32_t);
-        *out_size = (int64_t)fe__take_u64(&in);
-        in += sizeof(uint64_t);
-        *at = in - s->bytes + *out_size;
-        if (type == FE__SECTION_ASSET) return in;
+        section in = section_at(s, *at);
+        *at = in.content - s->bytes + in.size;
+        *out_size = in.size;
+        if (is_known(&in, FE__SECTION_ASSET)) return in.content;
     }
     return NULL;
 }

@@ -12,9 +12,10 @@
 
 int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, int32_t number)
 {
-    if (!fe__open_step_scratch(world)) return fe__snapshot_fail(b->snapshot, FE_ERROR_MEMORY);
-    beside->memory = world->memory;
+    int32_t is_open = fe__open_step_scratch(world);
+    beside->memory = world->memory; // counted on from here, and back when it is dropped
     beside->store = world->store;
+    if (!is_open) return fe__snapshot_fail(b->snapshot, FE_ERROR_MEMORY);
     beside->number = number;
     beside->static_tree.kernels = world->static_tree.kernels;
     beside->moving_tree.kernels = world->moving_tree.kernels;

@@ -169,6 +169,7 @@ static const void *trees_at(const fe_world *world, int32_t place, void *room)
 {
     fe__tree *tree = room;
     *tree = place ? world->moving_tree : world->static_tree;
+    tree->promised = (int32_t)fe__minl(tree->promised, fe__most_promised(tree));
     tree->node_capacity = (int32_t)fe__minl(tree->node_capacity, fe__most_nodes(tree));
     return room;
 }

@@ -22,11 +22,13 @@ static inline int32_t fe__live_records(const fe__record_pool *pool) { return poo
 
 // A tree with so many nodes is written, and taken, with no more room than this: no snapshot asks for more memory than
 // its size lets expect
-static inline int64_t fe__most_nodes(const fe__tree *tree)
+static inline int64_t fe__most_promised(const fe__tree *tree)
 {
     enum { FREE_NODES = 4096, PER_NODE = 4 };
-    return (int64_t)PER_NODE * tree->node_count + FREE_NODES + tree->promised;
+    return (int64_t)PER_NODE * tree->node_count + FREE_NODES;
 }
+
+static inline int64_t fe__most_nodes(const fe__tree *tree) { return fe__most_promised(tree) + tree->promised; }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
 #define FE__DECLARE_ROWS(rows)                                                                             \

@@ -69,8 +69,20 @@ static inline void mend(bytes b)
     put(b.data + AT_SUM, join(sum, fe__hash_end(&hash)));
 }
 
-// ---- changes of bytes
-// -------------------------------------------------------------------------------------------------
+// ---- changes of bytes -----------------------------------------------------------------------------------------------
+static inline void put_u32(unsigned char *at, uint32_t x)
+{
+    for (int32_t k = 0; k < 4; ++k) at[k] = (unsigned char)(x >> 8 * k);
+}
+
+// Where it begins, by its place among them
+static inline int64_t section_at(bytes b, int32_t section)
+{
+    int64_t at = HEADER;
+    for (; section > 0; --section) at += SECTION + (int64_t)take(b.data + at + 8, 8);
+    return at;
+}
+
 static inline uint32_t draw(uint32_t *seed)
 {
     *seed = *seed * 1664525u + 1013904223u;

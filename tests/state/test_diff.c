@@ -224,6 +224,63 @@ static void a_difference_needs_its_own_base(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// The same state in a world with another number has the same sum: it is a base as good, and the number is the saved one
+static void the_number_is_that_of_the_saved_world(void **state)
+{
+    (void)state;
+    enum { OTHER = 9, RECEIVER = 3 };
+    static play p;
+    fe_world_def def = definition();
+    fe_world *world = new_world(), *other, *receiver;
+    def.number = OTHER;
+    FE_TRUE(fe_world_create(&def, &other) == FE_OK);
+    def.number = RECEIVER;
+    FE_TRUE(fe_world_create(&def, &receiver) == FE_OK);
+    play_begin(&p, world);
+    play_until(&p, &script_brief, 30);
+    bytes base = save(world), twin;
+    fe_restore_options options;
+    fe_restore_options_init(&options, sizeof options);
+    options.new_number = 1;
+    FE_TRUE(fe_world_restore(other, &options, base.data, base.size) == FE_OK);
+    twin = save(other);
+    play_until(&p, &script_brief, 31);
+    bytes whole = save(world), diff = save_diff(world, base);
+    FE_TRUE(restore(receiver, diff, twin) == FE_OK);
+    bytes after = save(receiver);
+    expect_same(whole, after);
+    free(base.data), free(twin.data), free(whole.data), free(diff.data), free(after.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK && fe_world_destroy(other) == FE_OK);
+    FE_TRUE(fe_world_destroy(receiver) == FE_OK);
+}
+
+static fe_body add_body(fe_world *world, double x)
+{
+    fe_body body;
+    fe_body_def def;
+    fe_body_def_init(&def, sizeof def);
+    def.transform.position.x = x;
+    FE_TRUE(fe_body_create(world, &def, &body) == FE_OK);
+    return body;
+}
+
+// Bodies that took the slots of others, more of them than one looks ahead: what they cost is their own rows
+static void what_was_replaced_costs_its_own_bytes(void **state)
+{
+    (void)state;
+    enum { BODIES = 1000, REPLACED = 100, MOST = 2 }; // MOST: times a body's share of the whole
+    fe_body bodies[BODIES];
+    fe_world *world = new_world();
+    for (int32_t i = 0; i < BODIES; ++i) bodies[i] = add_body(world, i);
+    bytes base = save(world);
+    for (int32_t i = 0; i < REPLACED; ++i) FE_TRUE(fe_body_destroy(world, bodies[BODIES / 2 + i]) == FE_OK);
+    for (int32_t i = 0; i < REPLACED; ++i) (void)add_body(world, -i);
+    bytes whole = save(world), diff = save_diff(world, base);
+    FE_TRUE(diff.size < MOST * REPLACED * (whole.size / BODIES));
+    free(base.data), free(whole.data), free(diff.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
 // ---- bytes from anywhere -------------------------------------------------------------------------------------------
 typedef struct scene {
     fe_world *world;
@@ -371,6 +428,8 @@ int main(void)
         cmocka_unit_test(what_did_not_change_costs_nothing),
         cmocka_unit_test(saving_a_difference_checks_its_base),
         cmocka_unit_test(a_difference_needs_its_own_base),
+        cmocka_unit_test(the_number_is_that_of_the_saved_world),
+        cmocka_unit_test(what_was_replaced_costs_its_own_bytes),
         cmocka_unit_test(a_difference_that_is_cut_is_refused),
         cmocka_unit_test(each_byte_of_a_difference_counts),
         cmocka_unit_test(runs_that_lie_are_refused),

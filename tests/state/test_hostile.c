@@ -1,6 +1,8 @@
 // test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and
 // nothing changed; or the world lives: it steps, it is saved, and what is read of it is a number.
+#include "state/format.h"
 #include "state/snapshot_bytes.h"
+#include "state/table.h"
 #include "support/play.h"
 
 enum { NUMBER = 7 };
@@ -120,13 +122,13 @@ static void each_bit_of_the_headers_counts(void **state)
 }
 
 // A later minor version may write sections that this one does not know, behind those that it does
-static fe_result restore_with_unknown_section(fe_world *world, bytes b, uint32_t flags)
+static fe_result restore_with_section(fe_world *world, bytes b, uint32_t type, uint32_t flags)
 {
-    enum { UNKNOWN = 4999, CONTENT = 16, MAY_SKIP_SHIFT = 16 };
+    enum { CONTENT = 16, MAY_SKIP_SHIFT = 16 };
     bytes more = {calloc(1, (size_t)b.size + SECTION + CONTENT), b.size + SECTION + CONTENT};
     memcpy(more.data, b.data, (size_t)b.size);
     unsigned char *section = more.data + b.size;
-    put(section, (uint64_t)UNKNOWN | (uint64_t)(1 | flags << MAY_SKIP_SHIFT) << 32);
+    put(section, (uint64_t)type | (uint64_t)(1 | flags << MAY_SKIP_SHIFT) << 32);
     put(section + 8, CONTENT);
     put(section + SECTION, UINT64_C(0x123456789abcdef0));
     put(more.data + AT_SIZE, (uint64_t)more.size);
@@ -140,15 +142,109 @@ static fe_result restore_with_unknown_section(fe_world *world, bytes b, uint32_t
 static void only_what_says_so_is_skipped(void **state)
 {
     (void)state;
+    enum { UNKNOWN = 4999 };
     fe_world *world = make_scene(&script_brief, 40);
     bytes before = save(world);
-    assert_int_equal(restore_with_unknown_section(world, before, 0), FE_ERROR_DATA);
+    assert_int_equal(restore_with_section(world, before, UNKNOWN, 0), FE_ERROR_DATA);
     FE_TRUE(strstr(fe_last_error(), "section 4999 is unknown") != NULL);
-    assert_int_equal(restore_with_unknown_section(world, before, 1), FE_OK);
+    assert_int_equal(restore_with_section(world, before, UNKNOWN, 1), FE_OK);
     bytes after = save(world);
     FE_TRUE(after.size == before.size && memcmp(after.data, before.data, (size_t)after.size) == 0);
     free(before.data);
     free(after.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
+// It is not counted among the assets, so nobody has room for it
+static void an_asset_that_may_be_skipped_is_skipped(void **state)
+{
+    (void)state;
+    fe_world *world = make_scene(&script_solids, 30);
+    bytes before = save_whole(world);
+    FE_TRUE(take(before.data + AT_SECTIONS, 4) > FE__TABLES);
+    assert_int_equal(restore_with_section(world, before, FE__SECTION_ASSET, 1), FE_OK);
+    free(before.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
+// ---- numbers that agree with each other, and with nothing else
+// --------------------------------------------------------
+static unsigned char *row_of(bytes b, fe__table_number table, int32_t row)
+{
+    return b.data + section_at(b, (int32_t)table) + SECTION + ROWS + (int64_t)row * fe__tables[table].row_size;
+}
+
+static void expect_refused(fe_world *world, bytes b, const char *sentence)
+{
+    mend(b);
+    assert_int_equal(fe_world_restore(world, NULL, b.data, b.size), FE_ERROR_DATA);
+    if (!strstr(fe_last_error(), sentence)) fail_msg("%s", fe_last_error());
+    assert_int_equal(fe_snapshot_check(b.data, b.size, NULL), FE_ERROR_DATA);
+    free(b.data);
+}
+
+// Two rows of assets that begin with one shape would leave another without its hull; two of one asset would make a list
+// of users that goes round
+static void each_shape_gets_its_asset_once(void **state)
+{
+    (void)state;
+    enum { KEY = 16, AT_SHAPE = 28 };
+    fe_world *world = make_scene(&script_solids, 30);
+    for (int32_t same_key = 0; same_key < 2; ++same_key) {
+        bytes b = save_whole(world);
+        const unsigned char *first = row_of(b, FE__TABLE_ASSETS, 0);
+        unsigned char *second = row_of(b, FE__TABLE_ASSETS, 1);
+        FE_TRUE(take(first - ROWS, 8) >= 2);
+        memcpy(second + AT_SHAPE, first + AT_SHAPE, sizeof(int32_t));
+        if (same_key) memcpy(second, first, KEY);
+        expect_refused(world, b, "assets: ");
+    }
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
+enum { AT_NODES = 0, AT_CAPACITY = 4, AT_DEAD = 8, AT_PROMISED = 16 }; // in a tree's row
+
+// Nodes behind the others, with a parent and eight shapes each, which are counted as dead: building anew would take
+// their shapes, for which there is no room
+static void nodes_that_nobody_meets_are_refused(void **state)
+{
+    (void)state;
+    const fe__table_number last = FE__TABLE_MOVING_NODES;
+    enum { MORE = 3, CAPACITY = 64, LANES = 8, AT_CHILD = 192, AT_PARENT = 224 };
+    FE_TRUE(last == FE__TABLES - 1 && fe__tables[last].row_size == AT_PARENT + 8);
+    fe_world *world = make_scene(&script_brief, 40);
+    bytes b = save(world), more = {calloc(1, (size_t)(b.size + MORE * (AT_PARENT + 8))), b.size};
+    memcpy(more.data, b.data, (size_t)b.size);
+    int64_t section = section_at(b, (int32_t)last), nodes = (int64_t)take(b.data + section + SECTION, 8);
+    for (int32_t i = 0; i < MORE; ++i, more.size += AT_PARENT + 8) {
+        unsigned char *node = more.data + more.size;
+        memcpy(node, row_of(b, last, 0), AT_PARENT + 8);
+        for (int32_t k = 0; k < LANES; ++k) put_u32(node + AT_CHILD + 4 * k, UINT32_MAX); // shape 0
+        put_u32(node + AT_PARENT, 0);
+    }
+    put(more.data + section + 8, (uint64_t)(more.size - section - SECTION));
+    put(more.data + section + SECTION, (uint64_t)(nodes + MORE));
+    unsigned char *tree = row_of(more, FE__TABLE_TREES, 1);
+    put_u32(tree + AT_NODES, (uint32_t)(nodes + MORE));
+    put_u32(tree + AT_DEAD, (uint32_t)take(tree + AT_DEAD, 4) + MORE);
+    put_u32(tree + AT_CAPACITY, CAPACITY);
+    put(more.data + AT_SIZE, (uint64_t)more.size);
+    free(b.data);
+    expect_refused(world, more, "does not hang together");
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
+// A few bytes may not ask for a gigabyte
+static void a_tree_has_no_room_for_millions(void **state)
+{
+    (void)state;
+    enum { PROMISED = (1 << 21) - 1, FREE_NODES = 4096 };
+    fe_world *world = make_scene(&script_brief, 40);
+    bytes b = save(world);
+    unsigned char *tree = row_of(b, FE__TABLE_TREES, 0);
+    put_u32(tree + AT_PROMISED, PROMISED);
+    put_u32(tree + AT_CAPACITY, (uint32_t)take(tree + AT_NODES, 4) + PROMISED + FREE_NODES);
+    expect_refused(world, b, "promised");
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
@@ -203,6 +299,10 @@ int main(void)
         cmocka_unit_test(bytes_that_are_cut_are_refused_and_change_nothing),
         cmocka_unit_test(each_bit_of_the_headers_counts),
         cmocka_unit_test(only_what_says_so_is_skipped),
+        cmocka_unit_test(an_asset_that_may_be_skipped_is_skipped),
+        cmocka_unit_test(each_shape_gets_its_asset_once),
+        cmocka_unit_test(nodes_that_nobody_meets_are_refused),
+        cmocka_unit_test(a_tree_has_no_room_for_millions),
         cmocka_unit_test(brief_under_random_numbers),
         cmocka_unit_test(crowd_under_random_numbers),
         cmocka_unit_test(terrain_under_random_numbers),

@@ -79,8 +79,7 @@ typedef struct course {
 static void forget_room(bytes b)
 {
     enum { AT_ROOM = 4, TREES = 2 };
-    int64_t at = HEADER;
-    for (int32_t table = 0; table < FE__TABLE_TREES; ++table) at += SECTION + (int64_t)take(b.data + at + 8, 8);
+    int64_t at = section_at(b, FE__TABLE_TREES);
     for (int32_t i = 0; i < TREES; ++i)
         memset(b.data + at + SECTION + ROWS + i * fe__tables[FE__TABLE_TREES].row_size + AT_ROOM, 0, sizeof(int32_t));
     mend(b);
