@@ -305,7 +305,7 @@ docs:
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
-include $(wildcard bindings/*/rules.mk) tools/viewer/rules.mk
+include $(wildcard bindings/*/rules.mk tools/*/rules.mk)
 
 # the scene that every language plays; what calls cost in C
 $(BUILD)/feather-scenario $(BUILD)/feather-cost: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)
