@@ -36,7 +36,9 @@ test('its own page and programs read the file, other pages do not', async () => 
     assert.equal(await statusOf('/'), 101);
     assert.equal(await statusOf('/', `http://${host}`), 101);
     for (const path of ['/', '/last', '/a-word', '/a-word/last']) {
-        for (const origin of ['null', 'http://elsewhere.example', `https://${host}`]) assert.equal(await statusOf(path, origin), 403);
+        for (const origin of ['null', 'http://elsewhere.example', `https://${host}`]) {
+            assert.equal(await statusOf(path, origin), 403);
+        }
     }
 });
 
@@ -50,6 +52,7 @@ test('a file that was replaced by another one of its length ends the socket', as
     while (!Buffer.concat(got).includes('one')) await once(socket, 'data');
     writeFileSync(`${file}.new`, 'two'), renameSync(`${file}.new`, file);
     await once(socket, 'end');
-    assert.deepEqual([...Buffer.concat(got).subarray(-4)], [0x88, 2, 1000 >> 8, 1000 & 255]); // a close, as RFC 6455 has it
+    const close = [0x88, 2, 1000 >> 8, 1000 & 255]; // as RFC 6455 has it
+    assert.deepEqual([...Buffer.concat(got).subarray(-4)], close);
     socket.destroy();
 });
