@@ -7,7 +7,8 @@ import { pathToFileURL } from 'node:url';
 
 register('./resolve.mjs', import.meta.url);
 const from = (name) => import(new URL(`../src/${name}`, import.meta.url));
-const { default: Feather, World } = await import(`${pathToFileURL(process.env.FEATHER_PACKAGE).href}/module.js`);
+const feather = pathToFileURL(`${process.env.FEATHER_PACKAGE}/module.js`).href;
+const { default: Feather, World, Player } = await import(feather);
 await Feather(readFileSync(`${process.env.FEATHER_PACKAGE}/feather.wasm`));
 const { Playback } = await from('playback.js'), { Recording } = await from('recording.js');
 
@@ -71,7 +72,7 @@ test('after a break a recording takes nothing more', async () => {
     bytes.fill(255, at + 8, at + 12), bytes[at + 12] = 1; // a size of more than 4 GB
     assert.ok((await recording.push(bytes.subarray(0, at + 40))).length);
     assert.match(recording.broken, /is said to have/);
-    assert.equal((await recording.push(whole)).length, 0);
+    assert.equal((await recording.push(whole.subarray(at))).length, 0);
     assert.match(recording.broken, /is said to have/);
 });
 
@@ -130,7 +131,18 @@ test('the worker tells what it has found, what it cannot do, and of which record
     onmessage({ data: { pins: [], generation: 8 } });
     await settled((m) => m.end !== undefined);
     assert.ok(told.every((m) => m.generation === 8));
-    onmessage({ data: { clear: true, pins: [], generation: 9 } }), onmessage({ data: { feed: 'no bytes' } });
+    const { step } = Player.prototype;
+    const refused = Object.assign(new Error('nobody recorded that'), { code: 'FE_ERROR_DATA' });
+    Player.prototype.step = function () {
+        if (this.info.step === 150) throw refused;
+        return step.call(this);
+    };
+    told.length = 0, onmessage({ data: { pins: [], generation: 10 } });
+    await settled((m) => m.error);
+    Player.prototype.step = step;
+    assert.deepEqual([told.at(-1).error, told.at(-1).end, told.at(-1).generation], [refused.message, 150, 10]);
+    assert.equal(told.flatMap((m) => m.steps ?? []).length, 151); // what stood before it is told too
+    onmessage({ data: { clear: true, pins: [], generation: 11 } }), onmessage({ data: { feed: 'no bytes' } });
     await settled((m) => m.failed);
 });
 
