@@ -8,17 +8,26 @@ import { Recording } from './recording.js';
 const GHOST = 86 | (180 << 8) | (233 << 16) | (110 << 24), SLICE = 8; // ms
 
 export class Comparison {
-    constructor(app) { this.app = app, this.world = null; }
+    constructor(app) { this.app = app, this.world = null, this.shift = 0, this.told = ''; }
     async open(name, bytes) {
         const { app } = this, recording = new Recording();
         if (!app.playback?.ready) return app.say('Open a recording first, then the one to compare it with.', 'bad');
         this.end();
         const whole = await recording.push(bytes), playback = new Playback(recording);
         playback.feed(whole);
-        if (!playback.ready) return app.say(`${name}: ${recording.broken || playback.error || 'nothing of it plays'}`, 'bad');
+        const why = recording.broken || playback.error || 'nothing of it plays';
+        if (!playback.ready) return app.say(`${name}: ${why}`, 'bad');
         this.playback = playback, this.bytes = whole, this.name = name;
+        this.#align();
         this.#show();
         return this.#search();
+    }
+    // The same step of both; where neither has a step of the other, as many steps from its own first
+    #align() {
+        const { app, playback: b } = this, meet = b.first <= app.last && app.first <= b.last;
+        this.shift = meet ? 0 : b.first - app.first;
+        const told = `The two have no step in common: step ${app.first} here is shown beside ${b.first} there. `;
+        this.told = meet ? '' : told;
     }
     // From this step on, with twice the substeps, and without the calls that the recording has later
     settings() {
@@ -26,11 +35,13 @@ export class Comparison {
         if (!app.playback?.ready || app.live) return;
         this.end();
         this.isOther = true, this.#make(), this.#show();
-        app.say(`See-through: the same world from step ${app.step} on with ${this.world.substeps} substeps instead of ${app.world.substeps}.`);
+        const { substeps } = this.world;
+        const how = `with ${substeps} substeps instead of ${app.world.substeps}`;
+        app.say(`See-through: the same world from step ${app.step} on ${how}.`);
     }
     #make() {
         const { app } = this, b = new Playback(app.recording);
-        b.feed(app.recording.plain()), b.player.seek(app.step);
+        b.feed(app.recording.plain()), b.knows(app.step), b.goTo(app.step);
         this.world?.destroy();
         this.world = b.player.release(), b.destroy();
         this.world.substeps = 2 * this.world.substeps;
@@ -45,33 +56,40 @@ export class Comparison {
     // The first world has gone on, or elsewhere
     take() {
         if (!this.instances || this.app.live) return;
-        const { app } = this, ahead = app.step - app.first;
+        const { app } = this;
         if (this.isOther) {
             if (app.step < this.at || app.step > this.at + 60) this.#make();
             for (; this.at < app.step; ++this.at) this.world.step(app.dt);
         } else {
-            this.playback.seek(this.playback.first + ahead);
-            while (this.playback.goal !== null) this.playback.work(1000);
+            const step = app.step + this.shift;
+            this.playback.knows(step), this.playback.goTo(step);
         }
         this.instances.take(this.second, app.view.origin, ['shapes'], false);
     }
     draw(part) { this.instances?.draw(part); }
     // Two players of their own, step by step, until they differ
     async #search() {
-        const { app } = this, mine = (this.mark = {}), players = [app.recording.plain(), this.bytes].map((bytes) => { const p = new Playback(new Recording()); p.feed(bytes); return p; });
-        const end = () => players.forEach((p) => p.destroy());
+        const { app, shift } = this, mine = (this.mark = {}), start = Math.max(app.first, this.playback.first - shift);
+        const of = (recording, bytes, step) => {
+            const p = new Playback(recording);
+            p.feed(bytes), p.knows(step), p.seek(step);
+            return p;
+        };
+        const a = of(app.recording, app.recording.plain(), start);
+        const b = of(this.playback.recording, this.bytes, start + shift);
+        const players = [a, b], end = () => players.forEach((p) => p.destroy());
         for (let until = performance.now() + SLICE; ; ) {
-            const [a, b] = players;
-            if (a.world.hash !== b.world.hash) {
-                const d = compareSnapshots(a.world.save({ flags: 'assets' }), b.world.save({ flags: 'assets' })), step = a.step;
+            const late = players.find((p) => p.goal !== null); // on its way to where both begin
+            if (late) late.work(SLICE);
+            else if (a.world.hash !== b.world.hash) {
+                const [left, right] = players.map((p) => p.world.save({ flags: 'assets' })), { step } = a;
                 end();
+                const d = compareSnapshots(left, right);
                 if (d) return this.#tell(step, d);
-                return app.say(`The two differ first at step ${step}.`, 'warm');
-            }
-            const more = players.map((p) => p.advance());
-            if (!more[0] || !more[1]) {
-                end();
-                return app.say(more[0] === more[1] ? `The two are the same, bit for bit, for ${a.step - a.first} steps.` : `The two are the same, bit for bit, as far as the ${more[0] ? 'second' : 'first'} one goes: to step ${more[0] ? b.step : a.step}.`);
+                return app.say(`${this.told}The two differ first at step ${step}.`, 'warm');
+            } else {
+                const more = players.map((p) => p.advance());
+                if (!more[0] || !more[1]) return end(), app.say(this.told + sentence(more, a.step - start, players));
             }
             if (performance.now() > until) {
                 await new Promise((go) => setTimeout(go));
@@ -81,17 +99,30 @@ export class Comparison {
         }
     }
     #tell(step, d) {
-        const { app } = this, of = d.handle ? app.nameOf(d.handle, d.kind === 'body' ? 'body' : d.kind) : d.kind, element = d.element || /position|velocity|rotation/.test(d.field) ? ` ${'xyzw'[d.element] ?? d.element}` : '';
+        const { app } = this, of = d.handle ? app.nameOf(d.handle, d.kind) : d.kind;
+        const isVector = d.element || /position|velocity|rotation/.test(d.field);
+        const field = d.field + (isVector ? ` ${'xyzw'[d.element] ?? d.element}` : '');
         this.difference = { step, ...d };
-        app.timeline.marks.push({ step, kind: 'divergence', body: d.handle, text: `${of}: ${d.field}${element}` }), (app.marked = true);
-        app.say(`The two differ first at step ${step}: ${of}, ${d.field}${element} is ${d.a} here, ${d.b} there.`, 'warm');
+        app.timeline.marks.push({ step, kind: 'divergence', body: d.handle, text: `${of}: ${field}` });
+        app.marked = true;
+        const told = `${this.told}The two differ first at step ${step}: `;
+        app.say(`${told}${of}, ${field} is ${d.a} here, ${d.b} there.`, 'warm');
         if (d.kind === 'body') app.pick({ body: d.handle });
     }
     end() {
         this.mark = null, this.difference = null;
-        if (this.instances) this.app.view.scene.remove(this.instances.group), this.instances.clear(), (this.instances = null);
+        if (this.instances) {
+            this.app.view.scene.remove(this.instances.group), this.instances.clear();
+            this.instances = null;
+        }
         if (this.isOther) this.world?.destroy();
         this.playback?.destroy();
         this.world = this.playback = null, this.isOther = false;
     }
+}
+// Of two that are alike; `more` tells which of them goes on
+function sentence(more, steps, [a, b]) {
+    if (more[0] === more[1]) return `The two are the same, bit for bit, for ${steps} steps.`;
+    const [which, end] = more[0] ? ['second', b.step] : ['first', a.step];
+    return `The two are the same, bit for bit, as far as the ${which} one goes: to step ${end}.`;
 }

@@ -47,7 +47,8 @@ function machines(world) {
     for (const z of [-1.2, 1.2]) world.addBallJoint(before, east, [6.6, 4.3, z], [1, 0, 0]);
     const next = random(5);
     for (let k = 0; k < 14; ++k) {
-        const body = world.createBody({ position: [-5 + 10 * next(), 6.5 + 1.1 * k, 2 * next() - 1], linearVelocity: [0, -2, 0] });
+        const position = [-5 + 10 * next(), 6.5 + 1.1 * k, 2 * next() - 1];
+        const body = world.createBody({ position, linearVelocity: [0, -2, 0] });
         if (k % 3 === 0) body.addCylinder(0.3, 0.35, { density: 300 });
         else if (k % 3 === 1) body.addCapsule(0.3, 0.25, { density: 300 });
         else body.addBox(0.35, 0.3, 0.3, { density: 300 });
@@ -67,7 +68,8 @@ function machines(world) {
     // a chain with a weight
     let link = null, top = [-12, 9, 2];
     for (let k = 0; k < 12; ++k) {
-        const body = world.createBody({ position: [top[0] + 0.3 + 0.6 * k, top[1], top[2]], rotation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] });
+        const position = [top[0] + 0.3 + 0.6 * k, top[1], top[2]], rotation = [0, 0, Math.SQRT1_2, Math.SQRT1_2];
+        const body = world.createBody({ position, rotation });
         body.addCapsule(0.2, 0.09, { density: 2000 });
         world.addBallJoint(link, body, [top[0] + 0.6 * k, top[1], top[2]], [1, 0, 0]);
         link = body;
@@ -94,7 +96,8 @@ function heap(world) {
     });
     for (let k = 0; k < 420; ++k) {
         const a = 2.4 * k, r = 1.2 + 3.2 * Math.sqrt(next());
-        const body = world.createBody({ position: [r * Math.cos(a), 5 + 0.075 * k + next(), r * Math.sin(a)], angularVelocity: [next(), next(), next()] });
+        const position = [r * Math.cos(a), 5 + 0.075 * k + next(), r * Math.sin(a)];
+        const body = world.createBody({ position, angularVelocity: [next(), next(), next()] });
         const kind = k % 7, options = { density: 600, friction: 0.6 };
         if (kind === 0) body.addBox(0.42, 0.3, 0.36, options);
         else if (kind === 1) body.addSphere(0.36, { ...options, material: { rollingResistance: 0.05 } });
@@ -125,7 +128,9 @@ export class Maker {
         if (!this.left) return this.end();
         return this.recorder.read();
     }
+    // Also before all steps are made
     end() {
+        if (this.world.isDestroyed) return new Uint8Array(0);
         const bytes = this.recorder.read();
         this.recorder.destroy(), this.world.destroy(), this.left = 0;
         return bytes;

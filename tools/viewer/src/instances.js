@@ -6,9 +6,10 @@ import * as THREE from 'three';
 import { instanceType } from 'feather-physics/module';
 import { formOf, isBuilt } from './forms.js';
 import { materialOf, depthOf } from './materials.js';
+import { SLOT } from './series.js';
 
 // Of fe_draw_instance, in words
-const TYPE = 0, RGBA = 1, SHAPE = 2, BODY = 4, ASSET = 6, POSE = 8, HALF = 15, PART = 18;
+const TYPE = 0, RGBA = 1, SHAPE = 2, BODY = 4, ASSET = 6, POSE = 8;
 const RGB = 0xffffff, STATIC = 154 | (160 << 8) | (166 << 16); // of the library's table
 const FLOATS = 10; // position, rotation, half extents
 const PLANE = 4000; // m, half of what is drawn of a plane; it fades before
@@ -57,6 +58,7 @@ export class Instances {
         for (const bucket of this.buckets?.values() ?? []) bucket.end(this.group);
         this.buckets = new Map(), this.count = 0, this.ids = new Uint32Array(0), this.now = this.before = new Float32Array(0);
         this.colours = new Uint32Array(0), this.slots = new Int32Array(0), this.bucketOf = [], this.moving = new Uint8Array(0);
+        this.slotOf = new Map(); // body's handle: its instances
         this.fresh = true, this.room = 0;
     }
     // After a step, or a jump: `follows` says that what was there lies one step back
@@ -100,7 +102,7 @@ export class Instances {
     #place(world, origin) {
         for (const bucket of this.buckets.values()) bucket.count = 0;
         this.bucketOf.length = this.count;
-        this.slotOf = new Map(); // body's handle: its instances
+        this.slotOf.clear();
         for (let k = 0; k < this.count; ++k) {
             const type = this.typeOf(this.ids[7 * k + 6]), see = this.colours[k] >>> 24 < 255;
             const asset = isBuilt(type) ? '' : `${this.ids[7 * k + 4]},${this.ids[7 * k + 5]}`, key = type + asset + (see ? '*' : '');
@@ -122,7 +124,7 @@ export class Instances {
     }
     handleAt(k, j) { return this.ids[7 * k + j] + this.ids[7 * k + j + 1] * 4294967296; }
     bodyAt(k) { return this.handleAt(k, 2); }
-    instancesOf(body) { return this.slotOf?.get(body) ?? []; }
+    instancesOf(body) { return this.slotOf.get(body) ?? []; }
     colourOf(body) { const k = this.instancesOf(body)[0]; return k === undefined ? 0 : this.colours[k]; }
 
     // Where an instance was drawn last
@@ -150,7 +152,7 @@ export class Instances {
         if (still) this.changed = false;
     }
     #colour(mesh, slot, rgba, k, kind) {
-        const body = this.ids[7 * k + 2] % 2097152, shade = kind === 'plane' ? 1 : 1 + TINT * ((body * 2) % TINTS - (TINTS >> 1)), c = mesh.instanceColor;
+        const body = this.ids[7 * k + 2] % SLOT, shade = kind === 'plane' ? 1 : 1 + TINT * ((body * 2) % TINTS - (TINTS >> 1)), c = mesh.instanceColor;
         c.array[3 * slot] = linear[rgba & 255] * shade, c.array[3 * slot + 1] = linear[(rgba >> 8) & 255] * shade, c.array[3 * slot + 2] = linear[(rgba >> 16) & 255] * shade;
         c.needsUpdate = true;
     }

@@ -12,7 +12,7 @@ export function listen(app) {
     help.onclick = () => (help.hidden = true);
     const step = (n) => app.stepBy(n), second = () => Math.max(1, Math.round(1 / app.dt));
     const keys = {
-        ' ': () => app.toggle(), arrowleft: (e) => step(e.shiftKey ? -second() : -1), arrowright: (e) => step(e.shiftKey ? second() : 1), home: () => app.seek(app.first), end: () => app.seek(app.last),
+        ' ': () => app.toggle(), arrowleft: (e) => step(e.shiftKey ? -second() : -1), arrowright: (e) => step(e.shiftKey ? second() : 1), home: () => app.seek(app.first), end: () => app.toEnd(),
         '[': () => app.timeline.setSpeed(-1), ']': () => app.timeline.setSpeed(1), r: () => app.timeline.setLoop(!app.timeline.loop), z: () => app.focus(), x: () => app.follow(),
         escape: () => (help.hidden ? app.pick(null) : (help.hidden = true)), 1: () => app.view.direct(0, 0.12, 1), 2: () => app.view.direct(1, 0.12, 0), 3: () => app.view.direct(0, 1, 0.001),
         '/': () => document.getElementById('search').focus(), p: () => app.plots.toggle(), g: () => app.takeOver(), v: () => app.taken.throw(), l: () => app.theme(), o: () => document.getElementById('open').click(), '?': () => (help.hidden = !help.hidden),

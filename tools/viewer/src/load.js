@@ -25,20 +25,32 @@ export async function openFile(app, file, second) {
     if (second) await app.compare(second.name, await second.arrayBuffer());
 }
 export async function openUrl(app, url) {
-    const name = decodeURIComponent(new URL(url, location.href).pathname.split('/').pop());
     try {
+        const name = decodeURIComponent(new URL(url, location.href).pathname.split('/').pop());
         const response = await fetch(url);
         if (!response.ok) throw new Error(`the server says ${response.status} ${response.statusText}`);
-        await app.open(name, response.body, Number(response.headers.get('content-length')) || 0);
+        await app.open(name, response.body, Number(response.headers.get('content-length')) || 0, { url });
     } catch (error) {
         app.say(`${url} cannot be read: ${error.message}`, 'bad');
     }
 }
 // The chunks of a file that grows, from feather-live
 export function openSocket(app, url) {
-    const socket = new WebSocket(url), source = app.begin(`live: ${url}`, true);
+    let socket;
+    try {
+        socket = new WebSocket(url);
+    } catch (error) {
+        return app.say(`${url} cannot be opened: ${error.message}`, 'bad');
+    }
+    const source = app.begin(`live: ${url}`, { place: { ws: url }, isLive: true, stop: () => socket.close() });
     socket.binaryType = 'arraybuffer';
     let queue = Promise.resolve();
+    const ended = () => {
+        if (!source.isOpen) return;
+        source.end();
+        app.say(source.bytes ? `${url} has ended` : `${url} does not answer`, source.bytes ? 'warm' : 'bad');
+    };
     socket.onmessage = ({ data }) => (queue = queue.then(() => source.push(new Uint8Array(data))));
-    socket.onclose = () => (queue = queue.then(() => (source.end(), app.say(source.bytes ? `${url} has ended` : `${url} does not answer`, source.bytes ? 'warm' : 'bad'))));
+    socket.onclose = () => (queue = queue.then(ended));
+    return undefined;
 }

@@ -16,6 +16,8 @@ import { TakeOver } from './takeover.js';
 import { Comparison } from './ab.js';
 import { menus } from './menus.js';
 import * as load from './load.js';
+import { linkOf, wishOf } from './share.js';
+import { SLOT } from './series.js';
 import * as keys from './keys.js';
 
 const $ = (id) => document.getElementById(id);
@@ -23,12 +25,12 @@ const BEHIND = 1; // s behind what comes live, beyond which it goes there at onc
 const PHONE = 760; // pixels, below which panels lie over the view
 const BUDGET = 12; // ms of a frame that steps may take; a world too heavy for that is shown slower
 const PANELS = 90; // ms between two updates of text while it plays
-const SLOT = 2097152; // handles count bodies in their lowest 21 bits
 
 class App {
     constructor(module, workerText) {
         this.parts = new Set(['shapes', 'islands', 'sleep']);
-        this.notes = [], this.names = new Map(), this.pins = [], this.picked = null, this.playing = false, this.following = null;
+        this.notes = [], this.names = new Map(), this.pins = [];
+        this.picked = null, this.playing = false, this.following = null;
         this.taken = new TakeOver(this), this.other = new Comparison(this);
         this.view = new View($('view'));
         this.instances = new Instances();
@@ -39,7 +41,7 @@ class App {
         this.inspector = new Inspector(this);
         this.outline = new Outline(this);
         this.plots = new Plots(this);
-        this.owed = 0, this.told = 0, this.spent = { step: 0, draw: 0 };
+        this.owed = 0, this.told = 0;
         menus(this), load.listen(this), keys.listen(this), this.#pointer();
         $('theme').onclick = () => this.theme();
         $('banner-close').onclick = () => ($('banner').hidden = true);
@@ -68,49 +70,81 @@ class App {
     get series() { return this.scanner.series; }
     get scanned() { return this.live ? 0 : this.scanner.scanned ?? 0; }
 
-    // Begins a recording whose bytes come piece by piece, until `end`
-    begin(name, isLive = false) {
-        this.taken.end(), this.other.end(), this.playback?.destroy();
+    // Begins a recording whose bytes come piece by piece, until `end`. `place`: see linkOf. `stop` ends what sends them
+    begin(name, { place = null, isLive = false, stop = null } = {}) {
+        this.stop?.(), this.stop = stop, this.place = place;
+        this.taken.forget(), this.other.end(), this.playback?.destroy();
         const recording = (this.recording = new Recording()), playback = (this.playback = new Playback(recording));
-        this.maker = null, this.expected = 0, this.isSocket = this.isFollowingEnd = isLive, this.growing = true, this.fresh = true;
-        this.notes = [], this.names.clear(), this.timeline.marks = [], this.pins = [], this.following = null, this.fileName = name;
-        this.pick(null), this.instances.clear(), this.view.origin = [0, 0, 0];
-        this.scanner.clear(), this.owed = 0, this.playing = true;
-        $('title').textContent = name, $('banner').hidden = true, $('loading').hidden = true;
+        this.maker = null, this.expected = 0, this.growing = this.fresh = true;
+        this.isSocket = this.isFollowingEnd = isLive;
+        this.wanted = this.startStep, this.startStep = undefined;
+        this.fileName = name, this.scanner.clear(), this.owed = 0, this.playing = true;
+        this.#empty();
+        $('title').textContent = name, $('facts').textContent = '';
+        $('banner').hidden = $('loading').hidden = true;
         const isThis = () => this.recording === recording;
         return {
             get bytes() { return recording.bytes; },
+            get isOpen() { return isThis(); },
             push: async (bytes) => {
                 const whole = await recording.push(bytes);
                 if (!isThis()) return;
                 if (whole.length) this.#feed(whole);
                 if (recording.broken || playback.error) this.say(this.#sentence(), 'bad');
             },
-            end: () => {
-                if (!isThis()) return;
-                this.growing = false;
-                if (this.scanDone) this.expected = 0;
-                if (!playback.ready && !recording.broken && !playback.error) recording.broken = recording.bytes ? `cut at byte ${recording.bytes}, within its first keyframe: nothing of it plays` : 'the file is empty';
-                this.#judge();
-            },
+            end: (why = '') => isThis() && this.#ended(why),
         };
     }
-    async open(name, stream, size = 0) {
-        const source = this.begin(name), reader = stream.getReader();
-        for (let read = 0; ;) {
-            const { value, done } = await reader.read();
-            if (done) break;
-            await source.push(value);
-            read += value.length;
-            if (size > 4e6) $('facts').textContent = `${Math.round((100 * read) / size)} % read`;
+    // Nothing of what was open is seen any more
+    #empty() {
+        this.notes = [], this.names.clear(), this.timeline.marks = [], this.pins = [], this.following = null;
+        this.pick(null), this.instances.clear(), this.overlays.clear(), this.view.origin = [0, 0, 0];
+        this.outline.show(), this.plots.names(), this.plots.draw(), this.timeline.draw(), this.view.render();
+    }
+    #ended(why) {
+        const { recording, playback } = this;
+        this.growing = false, this.stop = null;
+        if (this.scanDone) this.expected = 0;
+        recording.broken ||= why;
+        if (!playback.ready && !recording.broken && !playback.error) {
+            const cut = `cut at byte ${recording.bytes}, within its first keyframe: nothing of it plays`;
+            recording.broken = recording.bytes ? cut : 'the file is empty';
         }
-        source.end();
+        this.#arrive(), this.#judge();
+    }
+    async open(name, stream, size = 0, place = null) {
+        const reader = stream.getReader(), stop = () => reader.cancel().catch(() => {});
+        const source = this.begin(name, { place, stop });
+        let read = 0, why = '';
+        try {
+            for (;;) {
+                const { value, done } = await reader.read();
+                if (done || !source.isOpen) break;
+                await source.push(value);
+                read += value.length;
+                if (size > 4e6 && source.isOpen) $('facts').textContent = `${Math.round((100 * read) / size)} % read`;
+            }
+        } catch (error) {
+            why = `cannot be read from byte ${read} on: ${error.message}`;
+        } finally {
+            source.end(why);
+        }
         return this;
     }
     demo(k) {
-        const demo = DEMOS[k], source = this.begin(demo.name);
-        this.maker = { maker: new Maker(demo), source, busy: false };
+        const demo = DEMOS[k];
+        if (!demo) return this.say(`There is no demo ${k}: they are 0 to ${DEMOS.length - 1}.`, 'bad');
+        const maker = new Maker(demo), source = this.begin(demo.name, { place: { demo: k }, stop: () => maker.end() });
+        this.maker = { maker, source, busy: false };
         this.expected = demo.steps, this.from = demo.from;
+        return undefined;
+    }
+    // To the step that a link asks for, when it is there, or the recording is known to end before
+    #arrive() {
+        const { playback, scanner, wanted } = this;
+        if (wanted === undefined || !playback.ready) return;
+        if (playback.last < wanted && !this.scanDone && (this.growing || scanner.worker)) return;
+        this.pause(), this.seek(wanted);
     }
     #feed(bytes) {
         const { playback, scanner } = this;
@@ -123,10 +157,11 @@ class App {
             if (this.from) this.view.direct(...this.from), (this.from = null);
             this.focus();
             if (this.startLook) this.look(this.startLook), (this.startLook = '');
-            if (this.startStep !== undefined) this.pause(), this.seek(this.startStep), (this.startStep = undefined);
+            if (this.wanted !== undefined) this.pause();
         }
-        scanner.feed(bytes);
-        if (this.isFollowingEnd && this.playing && playback.last - playback.step > BEHIND / playback.dt) playback.seek(playback.last);
+        this.#arrive(), scanner.feed(bytes);
+        const isBehind = playback.last - playback.step > BEHIND / playback.dt;
+        if (this.isFollowingEnd && this.playing && isBehind) playback.seek(playback.last);
         this.#notes();
         this.timeline.draw(), this.plots.draw();
     }
@@ -148,20 +183,32 @@ class App {
         return recording.left ? `cut at byte ${recording.bytes}${to}` : '';
     }
     #judge() {
-        const { recording, playback } = this, size = recording.bytes > 1e6 ? `${(recording.bytes / 1e6).toFixed(1)} MB` : `${Math.ceil(recording.bytes / 1e3)} KB`;
-        const c = playback.ready ? playback.world.counters : null;
+        const { recording, playback } = this, { bytes } = recording;
+        const size = bytes > 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.ceil(bytes / 1e3)} KB`;
+        const c = this.world?.counters; // a world that was taken over is no longer the player's
         $('facts').textContent = c ? `${c.bodies} bodies${c.joints ? `, ${c.joints} joints` : ''} · ${size}` : size;
         const sentence = this.#sentence();
         if (sentence) this.say(sentence, recording.broken || playback.error ? 'bad' : 'warm');
-        else if (playback.ready && playback.player.info.foreign) this.say('a library whose results differ has recorded this: it plays, and may go another way', 'warm');
+        else if (playback.ready && playback.player.info.foreign) {
+            this.say('a library whose results differ has recorded this: it plays, and may go another way', 'warm');
+        }
     }
     scanHeard(events) {
-        const { marks } = this.timeline, about = { hit: (e) => `${this.nameOf(e[2])} hits ${this.nameOf(e[3])}, ${e[4].toFixed(1)} m/s`, break: (e) => `${this.nameOf(e[2], 'joint')} breaks`, sleep: (e) => `${this.nameOf(e[2])} sleeps`, wake: (e) => `${this.nameOf(e[2])} wakes` };
-        if (marks.length < MOST_MARKS) for (const e of events) marks.push({ step: e[0], kind: e[1], body: e[1] === 'break' ? e[3] : e[2], text: about[e[1]]?.(e) ?? e[1] });
+        const { marks } = this.timeline, about = {
+            hit: (e) => `${this.nameOf(e[2])} hits ${this.nameOf(e[3])}, ${e[4].toFixed(1)} m/s`,
+            break: (e) => `${this.nameOf(e[2], 'joint')} breaks`,
+            sleep: (e) => `${this.nameOf(e[2])} sleeps`, wake: (e) => `${this.nameOf(e[2])} wakes`,
+        };
+        if (marks.length < MOST_MARKS) {
+            for (const e of events) {
+                const [step, kind] = e, body = kind === 'break' ? e[3] : e[2];
+                marks.push({ step, kind, body, text: about[kind]?.(e) ?? kind });
+            }
+        }
         this.marked = true;
     }
     scanEnded(end, error) {
-        this.playback?.knows(end);
+        this.playback?.knows(end), this.#arrive();
         this.marked = true;
         if (error && !this.playback.error) this.say(error, 'bad');
         if (this.scanDone && this.#sentence()) this.#judge();
@@ -177,7 +224,11 @@ class App {
     takeOver() { this.taken.toggle(); }
 
     // ---- time ----
-    play() { if (!this.live && this.isEndKnown && this.step >= this.last && !this.growing) this.seek(this.first); this.playing = true, this.owed = 0; }
+    play() {
+        this.wanted = undefined;
+        if (!this.live && this.isEndKnown && this.step >= this.last && !this.growing) this.seek(this.first);
+        this.playing = true, this.owed = 0;
+    }
     pause() { this.playing = false, this.isFollowingEnd = false, this.view.dirty = true; }
     toggle() { this.playing ? this.pause() : this.play(); }
     stepBy(n) {
@@ -188,7 +239,12 @@ class App {
     seek(step) {
         if (this.live || !this.playback) return;
         this.isFollowingEnd = this.isSocket && step >= this.last;
-        this.playback.seek(step), this.owed = 0;
+        this.playback.seek(step), this.owed = 0, this.wanted = undefined;
+    }
+    // To the last step; where more comes, on with it
+    toEnd() {
+        this.seek(this.last);
+        if (this.isFollowingEnd) this.playing = true;
     }
 
     // At once, however long it takes: for scripts
@@ -206,7 +262,7 @@ class App {
             if (performance.now() > until) { this.owed = Math.min(this.owed, 1); break; }
             const went = this.live ? this.taken.advance(1) : pb.advance();
             if (!went) { this.#atEnd(); break; }
-            --this.owed, moved = true, ++this.frameSteps;
+            --this.owed, moved = true;
             if (fine) this.#take(true);
         }
         if (moved && !fine) this.#take(false);
@@ -220,19 +276,21 @@ class App {
     }
     #frame(now) {
         requestAnimationFrame((next) => this.#frame(next));
-        const start = performance.now(), dt = Math.min((now - (this.before ?? now)) / 1000, 0.1);
-        this.before = now, this.frameSteps = 0;
+        const dt = Math.min((now - (this.before ?? now)) / 1000, 0.1);
+        this.before = now;
         this.#make();
         let moved = false;
-        if (this.goal !== null && this.goal !== undefined) moved = this.playback.work(BUDGET), moved && this.#take(false);
-        else if (this.playing && this.world) moved = this.#advance(dt);
-        const stepped = performance.now();
+        if (this.goal !== null && this.goal !== undefined) {
+            moved = this.playback.work(BUDGET);
+            if (moved) this.#take(false);
+        } else if (this.playing && this.world) moved = this.#advance(dt);
         if (moved && this.playback?.divergence && !this.live) this.diverged(this.playback.divergence);
         this.view.controls.update(dt);
         if (this.world) this.#draw(moved, now);
-        if (this.marked && now - (this.markedAt ?? 0) > 250) this.marked = false, this.markedAt = now, this.timeline.draw(), this.plots.draw(), this.plots.show(), this.outline.show();
-        this.spent.step = stepped - start, this.spent.draw = performance.now() - stepped;
-        this.onFrame?.(this.spent, this.frameSteps);
+        if (this.marked && now - (this.markedAt ?? 0) > 250) {
+            this.marked = false, this.markedAt = now;
+            this.timeline.draw(), this.plots.draw(), this.plots.show(), this.outline.show();
+        }
     }
     #make() {
         const job = this.maker;
@@ -258,14 +316,16 @@ class App {
     }
     changed() { this.#changed(false); }
     #lines() {
-        this.overlays.take(this.world, this.view.origin, this.parts, Math.min(0.5, Math.max(0.05, this.view.range * 0.06)));
-        const body = this.picked?.body;
-        this.overlays.pick(this.world, this.view.origin, body && this.world.body(body).isValid ? body : null, this.isDark ? 0xffffff : 0x10202f);
+        const { world, view, overlays } = this, scale = Math.min(0.5, Math.max(0.05, view.range * 0.06));
+        overlays.take(world, view.origin, this.parts, scale);
+        const body = this.picked?.body, isThere = body && world.body(body).isValid;
+        overlays.pick(world, view.origin, isThere ? body : null, this.isDark ? 0xffffff : 0x10202f);
     }
     #draw(moved, now) {
         const { view } = this, drawsLines = LINES.some((p) => this.parts.has(p));
         if (moved) this.#lines(), this.#panels(now, !this.playing), (view.dirty = true);
-        const part = this.playing && this.timeline.speed <= 1 && !drawsLines && this.goal === null ? Math.min(this.owed, 1) : 1;
+        const isBetween = this.playing && this.timeline.speed <= 1 && !drawsLines && this.goal === null;
+        const part = isBetween ? Math.min(this.owed, 1) : 1;
         if (this.instances.changed) this.instances.draw(part), (view.dirty = true);
         this.other.draw(part);
         if (this.picked?.body) this.overlays.follow(this.instances, this.picked.body);
@@ -285,15 +345,19 @@ class App {
         this.told = now;
         this.timeline.show(), this.inspector.show(), this.plots.show(), this.outline.paint();
         const c = this.world.counters;
-        $('told').textContent = `${c.awakeBodies} awake · ${c.contacts} contacts · ${this.world.profile.step.toFixed(2)} ms a step`;
-        if (c.bodies !== this.bodies || c.joints !== this.joints || (force && this.outline.tab === 'bodies' && $('filter').value !== 'all')) this.bodies = c.bodies, this.joints = c.joints, this.outline.show();
+        const ms = this.world.profile.step.toFixed(2);
+        const isFiltered = this.outline.tab === 'bodies' && $('filter').value !== 'all';
+        $('told').textContent = `${c.awakeBodies} awake · ${c.contacts} contacts · ${ms} ms a step`;
+        if (c.bodies === this.bodies && c.joints === this.joints && !(force && isFiltered)) return;
+        this.bodies = c.bodies, this.joints = c.joints, this.outline.show();
     }
     panels() { this.#panels(performance.now(), true); }
     layout() {
         document.documentElement.style.setProperty('--bottom', `${$('bottom').offsetHeight}px`);
         const shown = (id) => (getComputedStyle($(id)).display === 'none' ? null : $(id).getBoundingClientRect());
         const wide = innerWidth > PHONE, left = wide && shown('left'), right = wide && shown('right');
-        this.view.centre(left ? left.right : 0, $('top').getBoundingClientRect().bottom, right ? right.left : innerWidth, $('bottom').getBoundingClientRect().top);
+        const [top, bottom] = ['top', 'bottom'].map((id) => $(id).getBoundingClientRect());
+        this.view.centre(left ? left.right : 0, top.bottom, right ? right.left : innerWidth, bottom.top);
     }
     show(part, on = !this.parts.has(part)) {
         on ? this.parts.add(part) : this.parts.delete(part);
@@ -305,7 +369,9 @@ class App {
         this.view.look(name), this.timeline.draw(), this.plots.draw();
         if (this.world) this.#lines();
     }
-    say(text, kind = '') { $('banner').hidden = false, $('banner').className = kind, $('banner-text').textContent = text; }
+    say(text, kind = '') {
+        $('banner').hidden = false, $('banner').className = kind, $('banner-text').textContent = text;
+    }
     async copy(text, button) {
         try {
             await navigator.clipboard.writeText(text);
@@ -314,27 +380,36 @@ class App {
             area.value = text, document.body.append(area), area.select(), document.execCommand('copy'), area.remove();
         }
         this.copied = text;
-        if (button) { const old = button.textContent; button.textContent = 'Copied', setTimeout(() => (button.textContent = old), 900); }
+        if (!button) return;
+        const old = button.textContent;
+        button.textContent = 'Copied', setTimeout(() => (button.textContent = old), 900);
     }
 
     // ---- sharing ----
     bytes() { return this.taken.bytes() ?? this.recording?.plain() ?? new Uint8Array(0); }
     link() {
-        const { camera, controls } = this.view, numbers = [...camera.position.toArray(), ...controls.target.toArray()].map((v, k) => (v + this.view.origin[k % 3]).toFixed(3));
-        const wish = new URLSearchParams(location.search);
-        wish.set('step', this.step), wish.set('camera', numbers.join('_'));
-        return `${location.href.split(/[?#]/)[0]}?${wish}`;
+        const { camera, controls, origin } = this.view;
+        const numbers = [...camera.position.toArray(), ...controls.target.toArray()];
+        return linkOf(location.href, this.place, this.step, numbers.map((v, k) => v + origin[k % 3]));
+    }
+    async copyLink() {
+        await this.copy(this.link());
+        const without = this.place ? '' : ' It has no recording in it: send the file too, to be dropped there.';
+        this.say(`The link is copied.${without}`);
     }
     look(text) {
         const n = text.split('_').map((v, k) => Number(v) - this.view.origin[k % 3]);
-        if (n.length === 6 && n.every(Number.isFinite)) this.view.camera.position.set(...n.slice(0, 3)), this.view.controls.target.set(...n.slice(3)), this.view.controls.update();
+        if (n.length !== 6 || !n.every(Number.isFinite)) return;
+        const { camera, controls } = this.view;
+        camera.position.set(...n.slice(0, 3)), controls.target.set(...n.slice(3)), controls.update();
     }
 
     // ---- what is picked ----
     pick(what) {
         this.picked = what;
-        if (what && innerWidth <= PHONE && !document.body.classList.contains('left')) document.body.classList.add('right');
-        if (!what) document.body.classList.remove('right');
+        const { classList } = document.body;
+        if (what && innerWidth <= PHONE && !classList.contains('left')) classList.add('right');
+        if (!what) classList.remove('right');
         if (!this.world) return this.inspector.show();
         this.#lines(), this.inspector.show(), this.outline.show(), (this.view.dirty = true);
         return undefined;
@@ -347,8 +422,9 @@ class App {
     #bodies() {
         const p = this.picked;
         if (p?.body) return [p.body];
-        if (p?.joint && this.world.joint(p.joint).isValid) { const { bodyA, bodyB } = this.world.joint(p.joint).getBodies(); return [bodyA, bodyB].filter(Boolean); }
-        return [];
+        if (!p?.joint || !this.world.joint(p.joint).isValid) return [];
+        const { bodyA, bodyB } = this.world.joint(p.joint).getBodies();
+        return [bodyA, bodyB].filter(Boolean);
     }
     focus() {
         if (!this.world) return;
@@ -360,20 +436,24 @@ class App {
     }
     follow() { this.following = this.following || !this.picked?.body ? null : this.picked.body, this.inspector.show(); }
     #pointer() {
-        const canvas = $('view');
-        let down = null;
+        const canvas = $('view'), { taken, view } = this;
+        let down = null, holds = null; // where it went down; the pointer that holds a body
         canvas.addEventListener('pointerdown', (e) => {
             for (const menu of document.querySelectorAll('details[open]')) menu.open = false;
             down = { x: e.clientX, y: e.clientY };
-            if (this.live && e.button === 0 && this.taken.grab(e)) this.view.controls.enabled = false;
+            if (!this.live || e.button !== 0 || !taken.grab(e)) return;
+            canvas.setPointerCapture(e.pointerId), (holds = e.pointerId); // it may let go outside of the page
+            view.controls.enabled = false;
         }, true);
-        canvas.addEventListener('pointermove', (e) => this.live && this.taken.drag(e));
-        canvas.addEventListener('pointerup', (e) => {
-            if (this.live) this.taken.release();
-            this.view.controls.enabled = true;
-            if (down && e.button === 0 && Math.hypot(e.clientX - down.x, e.clientY - down.y) < 5) this.pickAt(e.clientX, e.clientY);
+        canvas.addEventListener('pointermove', (e) => this.live && e.pointerId === holds && taken.drag(e));
+        const up = (e) => {
+            if (e.pointerId === holds) taken.release(), (holds = null), (view.controls.enabled = true);
+            const isClick = e.type === 'pointerup' && down && e.button === 0;
+            if (isClick && Math.hypot(e.clientX - down.x, e.clientY - down.y) < 5) this.pickAt(e.clientX, e.clientY);
             down = null;
-        });
+        };
+        canvas.addEventListener('pointerup', up);
+        canvas.addEventListener('pointercancel', up);
         canvas.addEventListener('dblclick', () => this.picked && this.focus());
     }
 
@@ -385,41 +465,52 @@ class App {
         if (this.world.body(id).isValid) return { body: id };
         return this.world.joint(id).isValid ? { joint: id } : {};
     }
-    cssOf(body) { const c = this.instances.colourOf(body); return `rgb(${c & 255} ${(c >> 8) & 255} ${(c >> 16) & 255})`; }
+    cssOf(body) {
+        const c = this.instances.colourOf(body);
+        return `rgb(${c & 255} ${(c >> 8) & 255} ${(c >> 16) & 255})`;
+    }
     formOf(body) {
         const list = this.instances.instancesOf(body);
         return list.length === 1 ? this.instances.bucketOf[list[0]].kind : list.length ? `${list.length} shapes` : '';
     }
 
     // ---- pinned values ----
-    #pinOf(path) { const p = this.picked; return this.pins.find((n) => n.path === path && n.body === p?.body && n.joint === p?.joint); }
+    #pinOf(path) {
+        const p = this.picked;
+        return this.pins.find((n) => n.path === path && n.body === p?.body && n.joint === p?.joint);
+    }
     isPinned(path) { return !!this.#pinOf(path); }
     pin(path) {
-        const found = this.#pinOf(path), p = this.picked, name = `${this.nameOf(p.body ?? p.joint, p.joint ? 'joint' : 'body')} ${path.replace(/^(state|reaction)\./, '')}`;
+        const found = this.#pinOf(path), p = this.picked;
+        const of = this.nameOf(p.body ?? p.joint, p.joint ? 'joint' : 'body');
+        const name = `${of} ${path.replace(/^(state|reaction)\./, '')}`;
         if (found) this.pins = this.pins.filter((n) => n !== found), this.plots.on.delete(found.name);
         else this.pins.push({ ...p, path, name }), this.plots.on.add(name);
+        this.timeline.marks = this.timeline.marks.filter((m) => KEPT.has(m.kind)); // the worker tells all others again
         this.scanner.pin(this.pins);
         if (!this.plots.open) this.plots.toggle(true);
         this.plots.names(), this.inspector.show();
     }
 }
-const COLOURS = new Set(['shapes', 'islands', 'sleep']), LINES = ['contacts', 'forces', 'joints', 'limits', 'bounds', 'centres', 'trees'];
-const MOST_MARKS = 60000;
+const COLOURS = new Set(['shapes', 'islands', 'sleep']);
+const LINES = ['contacts', 'forces', 'joints', 'limits', 'bounds', 'centres', 'trees'];
+const MOST_MARKS = 60000, KEPT = new Set(['note', 'divergence']);
 const matrix = new THREE.Matrix4(), place = new THREE.Vector3();
 const localStorageOf = (key) => { try { return localStorage[key]; } catch { return undefined; } };
 
 async function begin() {
     const packed = Uint8Array.from(atob($('module').textContent.trim()), (c) => c.charCodeAt(0));
-    const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-    const module = await WebAssembly.compile(bytes);
+    const plain = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+    const module = await WebAssembly.compile(await new Response(plain).arrayBuffer());
     await Feather(module);
     const app = (window.viewer = new App(module, $('worker-text').textContent));
     $('loading').hidden = true;
-    const wish = new URLSearchParams(location.search.slice(1) || location.hash.slice(1));
-    if (wish.has('step')) app.startStep = Number(wish.get('step'));
-    app.startLook = wish.get('camera') ?? '';
-    if (wish.has('url')) await load.openUrl(app, wish.get('url'));
-    else if (wish.has('ws')) load.openSocket(app, wish.get('ws'));
-    else if (wish.get('demo') !== 'none') app.demo(Number(wish.get('demo') ?? 0));
+    const wish = wishOf(location.search, location.hash);
+    app.startStep = wish.step, app.startLook = wish.camera;
+    if (wish.url !== null) await load.openUrl(app, wish.url);
+    else if (wish.ws !== null) load.openSocket(app, wish.ws);
+    else if (wish.demo !== 'none') app.demo(Number(wish.demo));
 }
-begin().catch((error) => ($('loading').textContent = `The viewer cannot start: ${error.message}`));
+begin().catch((error) => {
+    $('loading').hidden = false, $('loading').textContent = `The viewer cannot start: ${error.message}`;
+});

@@ -46,7 +46,7 @@ export function menus(app) {
         item('Take over', 'leave the recording, grab bodies, throw boxes', 'G', then(() => app.takeOver())),
         item('Save as a recording', 'what you did since you took over, or the recording itself', '', then(() => save((app.fileName ?? 'run').replace(/(\.feather)?$/, '.feather'), app.bytes(), 'application/octet-stream'))),
         document.createElement('hr'),
-        item('Copy a link', 'place, step, camera', '', then(() => app.copy(app.link()).then(() => app.say('The link is copied.')))),
+        item('Copy a link', 'place, step, camera', '', then(() => app.copyLink())),
         item('Picture', 'as PNG', '', then(() => picture(app))),
         item('Clip', 'as WebM; once more to end it', '', (b) => record(app, b)),
         document.createElement('hr'),

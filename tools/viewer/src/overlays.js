@@ -82,6 +82,7 @@ export class Overlays {
         this.frame.add(this.outline.object);
         scene.add(this.through.object, this.solid.object, this.points.object, this.frame);
     }
+    clear() { for (const lines of [this.through, this.solid, this.points, this.outline]) lines.set({ count: 0 }); }
     // After a step: `parts` is a set of names, `only` a body or nothing
     take(world, origin, parts, scale) {
         const draw = (names) => names.filter((name) => parts.has(name)), none = { count: 0 };

@@ -4,8 +4,8 @@ import { Player } from 'feather-physics/module';
 const SECONDS = 1 / 60; // of a step, when the recording does not say it
 
 export class Playback {
-    constructor(recording, options) {
-        this.recording = recording, this.player = new Player(null, options), this.goal = null;
+    constructor(recording) {
+        this.recording = recording, this.player = new Player(), this.goal = null;
         this.first = 0, this.step = 0, this.last = 0, this.isEndKnown = false, this.ended = false;
         this.divergence = null, this.error = '';
     }
@@ -23,7 +23,7 @@ export class Playback {
         }
         this.#note();
     }
-    // What the library refuses is told once; what stood before it plays
+    // What the library refuses is told once; what stood before it plays. Undefined: this call was refused
     #try(call) {
         try {
             return call();
@@ -46,21 +46,34 @@ export class Playback {
     advance() {
         if (!this.ready) return false;
         const went = this.#try(() => this.player.step());
-        if (!went) this.ended = true;
+        this.ended = !went;
         this.#note();
         return !!went;
     }
-    seek(step) { this.goal = Math.min(Math.max(Math.round(step), this.first), this.last); }
+    // What is no number is no place
+    seek(step) {
+        const goal = Math.min(Math.max(Math.round(step), this.first), this.last);
+        if (!Number.isNaN(goal)) this.goal = goal;
+    }
     // Towards the goal for `ms`. True when the world is another one
     work(ms) {
         if (this.goal === null || !this.ready) return false;
         const until = performance.now() + ms, goal = this.goal;
         const frame = this.recording.keyframes.findLast((k) => k <= goal) ?? this.first;
         let moved = false;
-        if (goal < this.step || frame > this.step) this.#try(() => this.player.seek(Math.min(frame, goal))), this.ended = false, this.#note(), moved = true;
-        while (this.step < goal && performance.now() < until && this.advance()) moved = true;
-        if (this.step >= goal || this.ended || this.error) this.goal = null;
+        if (goal < this.step || frame > this.step) {
+            const went = this.#try(() => this.player.seek(Math.min(frame, goal)));
+            this.ended = false, this.#note();
+            this.ended = went === undefined, moved = true; // refused on the way: where it ends is not known by that
+        }
+        while (!this.ended && this.step < goal && performance.now() < until && this.advance()) moved = true;
+        if (this.step >= goal || this.ended) this.goal = null;
         return moved;
+    }
+    // At once, however long it takes
+    goTo(step) {
+        this.seek(step);
+        while (this.goal !== null && this.ready) this.work(1000);
     }
     destroy() { this.player.destroy(), this.ready = false; }
 }

@@ -10,12 +10,16 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 
 export class Plots {
     constructor(app) {
-        this.app = app, this.on = new Set(['kinetic energy', 'deepest overlap', 'awake bodies']), this.canvas = $('plot');
+        this.app = app, this.canvas = $('plot');
+        this.on = new Set(['kinetic energy', 'deepest overlap', 'awake bodies']);
         $('plots-button').onclick = () => this.toggle();
         const area = $('plot-area');
-        area.onpointerdown = (e) => { area.setPointerCapture(e.pointerId), this.held = true, app.pause(), this.#go(e); };
+        area.onpointerdown = (e) => {
+            area.setPointerCapture(e.pointerId);
+            this.held = true, app.pause(), this.#go(e);
+        };
         area.onpointermove = (e) => this.held && this.#go(e);
-        area.onpointerup = () => (this.held = false);
+        area.onpointerup = area.onpointercancel = () => (this.held = false);
         new ResizeObserver(() => this.draw()).observe(area);
     }
     get open() { return !$('plots').hidden; }
@@ -27,11 +31,14 @@ export class Plots {
         const r = this.canvas.getBoundingClientRect(), part = Math.min(Math.max((e.clientX - r.left) / r.width, 0), 1);
         this.app.seek(this.app.first + part * (this.app.last - this.app.first));
     }
-    all() { return [...COLUMNS.map((c) => ({ ...c })), ...this.app.pins.map((p) => ({ name: p.name, unit: p.unit ?? '', pinned: p }))].map((c, k) => ({ ...c, k, colour: colourOf(k) })); }
+    all() {
+        const pins = this.app.pins.map((p) => ({ name: p.name, unit: p.unit ?? '', pinned: p }));
+        return [...COLUMNS, ...pins].map((c, k) => ({ ...c, k, colour: colourOf(k) }));
+    }
     names() {
         if (!this.open) return;
         $('plot-names').replaceChildren(...this.all().map((c) => {
-            const b = document.createElement('button'), dot = document.createElement('i'), out = document.createElement('output');
+            const [b, dot, out] = ['button', 'i', 'output'].map((name) => document.createElement(name));
             const on = this.on.has(c.name);
             dot.style.background = on ? c.colour : '', b.setAttribute('aria-pressed', on), out.dataset.k = c.k;
             b.append(dot, c.name, out);
@@ -52,13 +59,19 @@ export class Plots {
     }
     draw() {
         if (!this.open) return;
-        const { clientWidth: w, clientHeight: h } = this.canvas, ratio = devicePixelRatio, g = this.canvas.getContext('2d'), { series, first, last } = this.app;
+        const { clientWidth: w, clientHeight: h } = this.canvas, ratio = devicePixelRatio;
+        const g = this.canvas.getContext('2d'), { series, first, last } = this.app;
         this.canvas.width = w * ratio, this.canvas.height = h * ratio;
         g.scale(ratio, ratio), g.lineWidth = 1.5, g.lineJoin = 'round';
         g.strokeStyle = css('--line');
-        for (let k = 0; k <= 4; ++k) g.beginPath(), g.moveTo(0, 4.5 + Math.round((k * (h - 9)) / 4)), g.lineTo(w, 4.5 + Math.round((k * (h - 9)) / 4)), g.stroke();
+        for (let k = 0; k <= 4; ++k) {
+            const y = 4.5 + Math.round((k * (h - 9)) / 4);
+            g.beginPath(), g.moveTo(0, y), g.lineTo(w, y), g.stroke();
+        }
         const span = Math.max(last - first, 1);
-        for (const c of this.all()) if (this.on.has(c.name) && c.k < series.width) this.#curve(g, w, h, series, first, span, c);
+        for (const c of this.all()) {
+            if (this.on.has(c.name) && c.k < series.width) this.#curve(g, w, h, series, first, span, c);
+        }
     }
     // Of each column of pixels the least and the largest value
     #curve(g, w, h, series, first, span, { k, colour }) {

@@ -21,24 +21,31 @@ function deepest(world, moved) {
         const n = Math.min(x.fe_body_get_contacts(world._w(), BigInt(moved.ids[k]), at, CONTACT, room), room);
         for (let c = 0; c < n; ++c) {
             const from = at + c * CONTACT, points = u32[(from + POINT_COUNT) >> 2];
-            for (let p = 0; p < points; ++p) least = Math.min(least, f32[(from + POINTS + p * POINT + SEPARATION) >> 2]);
+            for (let p = 0; p < points; ++p) {
+                least = Math.min(least, f32[(from + POINTS + p * POINT + SEPARATION) >> 2]);
+            }
         }
     }
     return -least;
 }
 function widest(world) {
     const joints = world.counters.joints;
-    if (!joints || joints > MOST_JOINTS) return 0;
+    if (joints > MOST_JOINTS) return NaN; // it would take longer than the step: no value, not a small one
     let most = 0;
     for (const joint of world.joints) {
         u32[scratch >> 2] = JOINT_STATE;
-        if (x.fe_joint_get_state(world._w(), BigInt(joint), scratch) >= 0) most = Math.max(most, f32[(scratch + LINEAR_ERROR) >> 2]);
+        if (x.fe_joint_get_state(world._w(), BigInt(joint), scratch) < 0) continue;
+        most = Math.max(most, f32[(scratch + LINEAR_ERROR) >> 2]);
     }
     return most;
 }
 function numbers(world) {
-    const c = world.counters, e = world.energy, moved = world.getMoved(), p = world.getMomentum([0, 0, 0]).linear;
-    const list = [e.kinetic, e.potential, deepest(world, moved) * 1e3, widest(world) * 1e3, c.awakeBodies, c.contacts, Math.hypot(p.x, p.y, p.z), world.profile.step, world.hitEvents.length];
+    const c = world.counters, e = world.energy, moved = world.getMoved();
+    const p = world.getMomentum([0, 0, 0]).linear;
+    const list = [
+        e.kinetic, e.potential, deepest(world, moved) * 1e3, widest(world) * 1e3, c.awakeBodies, c.contacts,
+        Math.hypot(p.x, p.y, p.z), world.profile.step, world.hitEvents.length,
+    ];
     for (const pin of pins) list.push(readPin(world, pin));
     return list;
 }
@@ -47,7 +54,7 @@ function step() {
         return player.step();
     } catch (error) {
         if (error.code !== 'FE_ERROR_DIVERGED') throw error;
-        postMessage({ divergence: player.divergence });
+        postMessage({ generation, divergence: player.divergence });
         return true;
     }
 }
@@ -67,8 +74,8 @@ async function run() {
         rows = [], steps = [], events = [], last = performance.now();
     };
     const tell = () => {
-        const { world } = player, at = player.info.step;
-        steps.push(at), rows.push(...numbers(world));
+        const { world } = player, at = player.info.step, row = numbers(world);
+        steps.push(at), rows.push(...row);
         for (const e of world.jointEvents) events.push([at, 'break', e.joint, e.bodyA, e.bodyB]);
         for (const e of world.bodyEvents) events.push([at, e.kind, e.body]);
         for (const e of world.hitEvents) events.push([at, 'hit', e.bodyA, e.bodyB, e.speed, e.impulse]);
@@ -89,8 +96,8 @@ async function run() {
             }
         }
     } catch (error) {
-        dead = true;
-        postMessage({ error: error.message, end: player.info.step });
+        dead = true, send(); // what it has found up to there
+        postMessage({ generation: mine, error: error.message, end: player.info.step });
     }
     running = false;
     if (mine !== generation && !dead) run();
@@ -98,19 +105,24 @@ async function run() {
 function renew() {
     player?.destroy();
     player = new Player(), begun = false;
-    try {
-        for (const bytes of fed) player.feed(bytes);
-    } catch { /* the page has heard it from its own player */ }
+    for (const bytes of fed) give(bytes);
 }
+function give(bytes) {
+    try {
+        player.feed(bytes);
+    } catch (error) {
+        if (!error.code) throw error; // what the library refuses the page has heard from its own player
+    }
+}
+// What cannot go on at all: the page makes another worker
+const fail = (error) => postMessage({ failed: error.message });
+
 async function hear(data) {
     if (data.module) await Feather(data.module);
-    if (data.clear) fed.length = 0, pins = [], ++generation, dead = false, renew();
-    if (data.feed) {
-        fed.push(data.feed);
-        if (!player) renew();
-        else try { player.feed(data.feed); } catch { /* likewise */ }
-        run();
-    }
-    if (data.pins) pins = data.pins, ++generation, dead = false, renew(), run();
+    if (data.generation !== undefined) generation = data.generation, pins = data.pins, dead = false;
+    if (data.clear) fed.length = 0;
+    if (data.generation !== undefined) renew();
+    if (data.feed) fed.push(data.feed), give(data.feed);
+    if (fed.length) run().catch(fail);
 }
-onmessage = ({ data }) => (queue = queue.then(() => hear(data))); // in their order, the module first
+onmessage = ({ data }) => (queue = queue.then(() => hear(data)).catch(fail)); // in their order, the module first

@@ -1,4 +1,5 @@
 // series.js - what is plotted: the columns that the scan fills, and values of bodies and joints that somebody pinned.
+export const SLOT = 2097152; // handles count bodies in their lowest 21 bits
 export const COLUMNS = [
     { name: 'kinetic energy', unit: 'J', colour: '#e69f00' },
     { name: 'potential energy', unit: 'J', colour: '#56b4e9' },
@@ -31,9 +32,13 @@ export function readPin(world, { body, joint, path }) {
 
 // Numbers by step, with room that grows
 export class Series {
-    constructor(first = 0) { this.first = first, this.count = 0, this.width = COLUMNS.length, this.data = new Float64Array(0); }
+    constructor(first = 0) {
+        this.first = first, this.count = 0, this.width = COLUMNS.length, this.data = new Float64Array(0);
+    }
     put(step, rows, at, width) {
-        if (this.width !== width || !this.data.length) this.width = width, this.data = new Float64Array(width * 4096), this.count = 0;
+        if (this.width !== width || !this.data.length) {
+            this.width = width, this.data = new Float64Array(width * 4096), this.count = 0;
+        }
         const k = step - this.first;
         if (k < 0) return;
         if ((k + 1) * width > this.data.length) {

@@ -29,6 +29,8 @@ export class TakeOver {
         this.recorder.destroy(), this.world.destroy();
         this.world = null;
     }
+    // Another recording is opened: what was done belongs to the last one
+    forget() { this.end(), this.parts = []; }
     #read() { const bytes = this.recorder.read(); if (bytes.length) this.parts.push(bytes); }
     bytes() {
         if (this.world) this.#read();
@@ -46,7 +48,9 @@ export class TakeOver {
         return true;
     }
     grab(e) {
-        const [from, to] = this.app.view.ray(e.clientX, e.clientY), hit = this.world.raycast(from, to), body = hit && this.world.body(hit.body);
+        if (this.grip) return false;
+        const [from, to] = this.app.view.ray(e.clientX, e.clientY), hit = this.world.raycast(from, to);
+        const body = hit && this.world.body(hit.body);
         if (body?.type !== 'dynamic') return false;
         const hand = this.world.createBody({ type: 'kinematic', position: hit.point });
         this.world.addMotorJoint(hand, body, HERTZ, DAMPING, FORCE * body.mass, TORQUE * body.mass);
@@ -64,8 +68,12 @@ export class TakeOver {
     }
     throw() {
         if (!this.world) return;
-        const { view } = this.app, [from, to] = view.ray(view.width / 2, view.height / 2, 1), size = Math.max(0.15, Math.min(1, view.range * 0.035));
-        const box = this.world.createBody({ position: from.map((v, k) => v + to[k] * 2 * size), linearVelocity: to.map((v) => v * SPEED), angularVelocity: [1, 2, 3] });
+        const { view } = this.app, [from, to] = view.ray(view.width / 2, view.height / 2, 1);
+        const size = Math.max(0.15, Math.min(1, view.range * 0.035));
+        const box = this.world.createBody({
+            position: from.map((v, k) => v + to[k] * 2 * size),
+            linearVelocity: to.map((v) => v * SPEED), angularVelocity: [1, 2, 3],
+        });
         box.addBox(size, size, size, { density: 1000 });
         this.app.play();
     }

@@ -17,12 +17,18 @@ export class Timeline {
         $('loop').onclick = () => this.setLoop(!this.loop);
         let resume = false;
         const go = (e) => app.seek(this.stepAt(e.clientX));
-        this.bar.onpointerdown = (e) => { this.bar.setPointerCapture(e.pointerId), resume = app.playing, app.pause(), go(e), (this.held = true); };
+        this.bar.onpointerdown = (e) => {
+            this.bar.setPointerCapture(e.pointerId);
+            resume = app.playing, app.pause(), go(e), (this.held = true);
+        };
         this.bar.onpointermove = (e) => {
             if (this.held) go(e);
             this.#hover(e);
         };
-        this.bar.onpointerup = () => { this.held = false; if (resume) app.play(); };
+        this.bar.onpointerup = this.bar.onpointercancel = () => {
+            if (this.held && resume) app.play();
+            this.held = false;
+        };
         this.bar.onpointerleave = () => ($('hover').hidden = true);
         new ResizeObserver(() => this.draw()).observe(this.bar);
     }
@@ -35,10 +41,15 @@ export class Timeline {
         const r = this.bar.getBoundingClientRect(), part = Math.min(Math.max((x - r.left) / r.width, 0), 1);
         return Math.round(this.app.first + part * (this.app.last - this.app.first));
     }
-    part(step) { return this.app.last > this.app.first ? (step - this.app.first) / (this.app.last - this.app.first) : 0; }
+    part(step) {
+        const { first, last } = this.app;
+        return last > first ? (step - first) / (last - first) : 0;
+    }
     #hover(e) {
-        const hover = $('hover'), r = this.bar.getBoundingClientRect(), step = this.stepAt(e.clientX), reach = (6 / r.width) * (this.app.last - this.app.first);
-        const mark = this.marks.filter((m) => m.text && Math.abs(m.step - step) <= reach).sort((a, b) => RANK[b.kind] - RANK[a.kind])[0];
+        const hover = $('hover'), r = this.bar.getBoundingClientRect(), step = this.stepAt(e.clientX);
+        const reach = (6 / r.width) * (this.app.last - this.app.first);
+        const near = this.marks.filter((m) => m.text && Math.abs(m.step - step) <= reach);
+        const [mark] = near.sort((a, b) => RANK[b.kind] - RANK[a.kind]);
         hover.hidden = false;
         hover.textContent = mark ? `${mark.step}  ${mark.text}` : `${step}`;
         const x = e.clientX - r.left, right = x > r.width - 180;
@@ -46,7 +57,8 @@ export class Timeline {
     }
     // What is marked has changed, or the size
     draw() {
-        const { clientWidth: w, clientHeight: h } = this.bar, ratio = devicePixelRatio, c = this.canvas, g = c.getContext('2d');
+        const { clientWidth: w, clientHeight: h } = this.bar, ratio = devicePixelRatio;
+        const c = this.canvas, g = c.getContext('2d');
         c.width = w * ratio, c.height = h * ratio;
         g.scale(ratio, ratio);
         const { app } = this, x = (step) => this.part(step) * w;
@@ -55,25 +67,30 @@ export class Timeline {
         const hits = new Float32Array(Math.ceil(w / 3) + 1);
         for (const m of this.marks) if (m.kind === 'hit') hits[Math.floor(x(m.step) / 3)] += 1;
         g.fillStyle = css('--faint');
-        hits.forEach((n, k) => n && g.fillRect(3 * k, h - 4 - Math.min(1, Math.log2(1 + n) / 7) * (h - 12), 2, Math.min(1, Math.log2(1 + n) / 7) * (h - 12)));
+        hits.forEach((n, k) => {
+            const tall = Math.min(1, Math.log2(1 + n) / 7) * (h - 12);
+            if (n) g.fillRect(3 * k, h - 4 - tall, 2, tall);
+        });
         for (const m of this.marks) {
             if (m.kind === 'hit' || m.kind === 'sleep' || m.kind === 'wake') continue;
-            g.fillStyle = m.kind === 'note' ? css('--warm') : m.kind === 'call' ? css('--accent') : css('--red');
+            g.fillStyle = css(m.kind === 'note' ? '--warm' : '--red');
             const at = x(m.step);
             if (m.kind === 'divergence') g.fillRect(at, 0, 3, h);
             g.beginPath(), g.moveTo(at - 4, 1), g.lineTo(at + 4, 1), g.lineTo(at, 8), g.fill();
         }
     }
     show() {
-        const { app } = this, part = this.part(app.goal ?? app.step), percent = (v) => `${(100 * Math.min(v, 1)).toFixed(3)}%`;
+        const { app } = this, part = this.part(app.goal ?? app.step);
+        const percent = (v) => `${(100 * Math.min(v, 1)).toFixed(3)}%`;
         $('head').style.left = percent(part), $('played').style.width = percent(this.part(app.step));
         $('ready').style.width = percent(this.part(app.scanned));
         $('step').textContent = app.step;
         $('of').textContent = app.live ? 'live' : `/ ${app.last}${app.isEndKnown ? '' : ' +'}`;
         $('seconds').textContent = `${((app.step - app.first) * app.dt).toFixed(2)} s`;
         $('play').firstElementChild.firstElementChild.setAttribute('d', app.playing ? PAUSE : PLAY);
-        this.bar.setAttribute('aria-valuemin', app.first), this.bar.setAttribute('aria-valuemax', app.last), this.bar.setAttribute('aria-valuenow', app.step);
+        const values = { min: app.first, max: app.last, now: app.step };
+        for (const [name, value] of Object.entries(values)) this.bar.setAttribute(`aria-value${name}`, value);
     }
 }
 const PLAY = 'M4 2.5v11L13.5 8z', PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
-const RANK = { hit: 0, sleep: 0, wake: 0, call: 1, note: 2, break: 3, divergence: 4 };
+const RANK = { hit: 0, sleep: 0, wake: 0, note: 1, break: 2, divergence: 3 };

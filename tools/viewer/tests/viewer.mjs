@@ -89,8 +89,12 @@ test('the timeline is scrubbed by the pointer, keys step, space plays to the end
 test('plots have a value for every step, of pinned values too', async () => {
     await scanned(page);
     for (const { step, kinetic } of said.steps) assert.equal(await page.evaluate((s) => viewer.series.at(s, 0), step), kinetic);
+    const marks = () => page.evaluate('viewer.timeline.marks.map((m) => `${m.step} ${m.kind} ${m.text}`).sort()');
+    const before = await marks();
+    assert.ok(before.length > 1);
     await page.evaluate(({ pendulum }) => { viewer.pick({ body: Number(pendulum) }), viewer.pin('position.y'); }, said);
     await scanned(page);
+    assert.deepEqual(await marks(), before); // the worker has told all events again
     for (const { step, pendulum } of said.steps) assert.equal(await page.evaluate((s) => viewer.series.at(s, viewer.series.width - 1), step), pendulum[1]);
     assert.ok(await page.isVisible('#plot'));
     await page.keyboard.press('p');
@@ -112,6 +116,26 @@ test('the two first differ where C says it', async () => {
     const difference = await page.evaluate('viewer.other.difference');
     assert.equal(difference.step, said.first);
     assert.match(await page.innerText('#banner-text'), new RegExp(`differ first at step ${said.first}`));
+    await page.evaluate('viewer.other.end()');
+});
+
+test('two are compared at the same step, though one begins later', async () => {
+    let from = 0;
+    for (let at = 40; at < a.length; at += 32 + Math.ceil(Number(a.readBigUInt64LE(at + 8)) / 8) * 8) {
+        if (a.toString('latin1', at, at + 4) === 'KEYF' && a.readBigInt64LE(at + 24) < said.last) from = at;
+    }
+    const late = Buffer.concat([a.subarray(0, 40), a.subarray(from)]);
+    await drop(page, [{ name: 'a.feather', bytes: a }, { name: 'late.feather', bytes: late }]);
+    await page.waitForFunction('/the same/.test(document.getElementById("banner-text").textContent)');
+    const found = await page.evaluate((step) => {
+        viewer.jump(step);
+        const { playback } = viewer.other;
+        return { first: playback.first, step: playback.step, hashes: [viewer.world.hash, playback.world.hash] };
+    }, said.last - 1);
+    assert.ok(found.first > said.last / 2);
+    assert.equal(found.step, said.last - 1);
+    assert.equal(found.hashes[0], found.hashes[1]);
+    assert.match(await page.innerText('#banner-text'), new RegExp(`bit for bit, for ${said.last - found.first} steps`));
     await page.evaluate('viewer.other.end()');
 });
 
@@ -199,6 +223,9 @@ test('taken over, the world is grabbed, thrown at, recorded, and left again', as
     await drop(page, [{ name: 'mine.feather', bytes: Uint8Array.from(got.bytes) }]);
     await scanned(page);
     assert.equal(await page.evaluate('viewer.jump(viewer.last), viewer.world.hash'), got.hash);
+    assert.equal(await page.evaluate('viewer.bytes().length'), got.bytes.length);
+    await drop(page, [{ name: 'a.feather', bytes: a }]);
+    assert.equal(await page.evaluate('viewer.bytes().length'), a.length); // what was done belonged to the last one
 });
 
 test('?url= opens what a server has, and says what it lacks', async () => {
@@ -220,6 +247,27 @@ test('?url= opens what a server has, and says what it lacks', async () => {
     await none.close(), server.close(), server.closeAllConnections();
 });
 
+test('what an address asks for in vain is told in words', async () => {
+    const vain = [['?url=%E0%A4%A', /cannot be read/], ['?ws=nonsense:1', /cannot be opened/], ['?demo=99', /no demo 99/]];
+    for (const [wish, words] of vain) {
+        const other = await openPage(browser, wish);
+        await other.waitForFunction('!document.getElementById("banner").hidden');
+        assert.match(await other.innerText('#banner-text'), words);
+        assert.deepEqual(other.errors, []);
+        await other.close();
+    }
+});
+
+test('a link names the demo that is open, and its step, however far, is gone to', async () => {
+    const other = await openPage(browser, '?demo=1&step=700');
+    await other.waitForFunction('viewer.step === 700 && viewer.goal === null');
+    assert.match(await other.evaluate('viewer.link()'), /\?demo=1&step=700&/);
+    await drop(other, [{ name: 'a.feather', bytes: a }]);
+    assert.match(await other.evaluate('viewer.link()'), /\?demo=none&step=/);
+    assert.deepEqual(other.errors, []);
+    await other.close();
+});
+
 test('a file that grows is shown live, from its start or from its last keyframe', async () => {
     const file = `${files}/growing.feather`, half = said.cut;
     writeFileSync(file, a.subarray(0, half));
@@ -235,6 +283,12 @@ test('a file that grows is shown live, from its start or from its last keyframe'
         for (const wanted of said.steps) {
             assert.equal(await shown.evaluate((step) => (viewer.jump(step), viewer.world.hash), wanted.step), wanted.hash);
         }
+        assert.equal(await shown.evaluate('viewer.playing'), false);
+        await shown.keyboard.press('End');
+        await shown.waitForFunction('viewer.playing && viewer.isFollowingEnd');
+        const [word] = String(line).match(/\?ws=\S+/), disk = await openPage(browser, word); // a page from a disk
+        await disk.waitForFunction(`viewer.last === ${said.last}`);
+        await disk.close();
         const late = await openPage(browser, `${host}last`);
         await late.waitForFunction('viewer.playback?.ready && viewer.scanner.ended');
         assert.equal(await late.evaluate(`viewer.jump(${said.last}), viewer.world.hash`), said.steps.at(-1).hash);
