@@ -325,7 +325,7 @@ static void take_run(reader *r)
     r->is_sound = same <= INT64_MAX / 4 && changed <= INT64_MAX / 4 && added <= INT64_MAX / 4 &&
                   fit(r->base, r->base_end, same + changed) && fit(r->out, r->out_end, same + changed + added);
     if (!r->is_sound) return;
-    memcpy(r->out, r->base, WORD * same);
+    memcpy(r->out, r->base, (size_t)(WORD * same));
     r->out += WORD * same, r->base += WORD * same;
     for (; changed && r->is_sound; --changed, r->base += WORD)
         r->out = fe__put_u32(r->out, take_word(r) ^ word_of(r->base));
