@@ -60,6 +60,7 @@ static void forget_others(void)
     }
 }
 
+#if FE_HAS_THREADS // what has none is no library that is unloaded
 // No thread that outlives the library calls into memory that is gone.
 __attribute__((destructor)) static void end(void)
 {
@@ -70,6 +71,7 @@ __attribute__((destructor)) static void end(void)
     }
     own = NULL;
 }
+#endif
 
 static fe__reader *first_of_thread(void)
 {
