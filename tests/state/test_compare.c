@@ -1,6 +1,7 @@
 // test_compare.c - where two worlds first differ: each kind of record, one bit of a velocity, what is missing, what
 // does not count; and bytes that nobody saved.
 #include "state/snapshot_bytes.h"
+#include "state/table.h"
 #include "support/play.h"
 
 #include <math.h>
@@ -151,7 +152,7 @@ static void shapes_joints_and_settings_are_named(void **state)
 // Whatever is in a row counts, but for trees, the last three tables
 static void each_table_counts(const script *s, int32_t steps)
 {
-    enum { FIRST_TREE = 40, TABLES = 43, FIRST_EVENT = 36, STRIDE = 401 };
+    enum { FIRST_TREE = FE__TABLE_TREES, TABLES = FE__TABLES, FIRST_EVENT = FE__TABLE_PAIR_EVENTS, STRIDE = 401 };
     fe_world *world = make(s, steps);
     bytes a = save(world), b = {malloc((size_t)a.size), a.size};
     int32_t seen[TABLES] = {0}, table = 0;
