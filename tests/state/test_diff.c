@@ -1,4 +1,5 @@
 // test_diff.c - snapshots as differences to another one: what they make, how small they are, what is refused.
+#include "api/api_test.h"
 #include "robust/counting_allocator.h"
 #include "state/snapshot_bytes.h"
 #include "support/play.h"
@@ -26,11 +27,20 @@ static fe_world_def definition(void)
     return def;
 }
 
-static fe_world *new_world(void)
+static fe_world *make_world(void)
 {
     fe_world_def def = definition();
     fe_world *world;
     FE_TRUE(fe_world_create(&def, &world) == FE_OK);
+    return world;
+}
+
+// As far as the script has come after so many steps
+static fe_world *played(play *p, const script *s, int32_t steps)
+{
+    fe_world *world = make_world();
+    play_begin(p, world);
+    play_until(p, s, steps);
     return world;
 }
 
@@ -78,9 +88,7 @@ static void expect_same(bytes a, bytes b) { FE_TRUE(a.size == b.size && memcmp(a
 static void differences_make_the_worlds_they_were_saved_of(const script *s, int32_t hop)
 {
     static play p;
-    fe_world *world = new_world(), *twin = new_world();
-    play_begin(&p, world);
-    play_until(&p, s, 1);
+    fe_world *world = played(&p, s, 1), *twin = make_world();
     bytes base = save(world);
     for (int32_t step = 1 + hop; step <= s->steps; step += hop) {
         play_until(&p, s, step);
@@ -113,11 +121,7 @@ static void any_snapshot_is_a_base(void **state)
 {
     (void)state;
     static play p;
-    fe_world *empty = new_world(), *full = new_world(), *other = new_world();
-    play_begin(&p, full);
-    play_until(&p, &script_brief, 60);
-    play_begin(&p, other);
-    play_until(&p, &script_mixed, 20);
+    fe_world *empty = make_world(), *full = played(&p, &script_brief, 60), *other = played(&p, &script_mixed, 20);
     fe_world *worlds[] = {empty, full, other};
     bytes wholes[] = {save(empty), save(full), save(other)};
     for (int from = 0; from < 3; ++from)
@@ -145,9 +149,7 @@ static void what_did_not_change_costs_nothing(void **state)
 {
     (void)state;
     static play p;
-    fe_world *world = new_world();
-    play_begin(&p, world);
-    play_until(&p, &script_brief, 60);
+    fe_world *world = played(&p, &script_brief, 60);
     bytes base = save(world), diff = save_diff(world, base);
     FE_TRUE(diff.size <= DIFF_HEADER + 8);
     FE_TRUE(restore(world, diff, base) == FE_OK);
@@ -159,7 +161,7 @@ static void what_did_not_change_costs_nothing(void **state)
 static void saving_a_difference_checks_its_base(void **state)
 {
     (void)state;
-    fe_world *world = new_world();
+    fe_world *world = make_world();
     bytes base = save(world), diff = save_diff(world, base);
     unsigned char room[8] = {0};
     fe_save_options options = against(base);
@@ -196,9 +198,7 @@ static void a_difference_needs_its_own_base(void **state)
 {
     (void)state;
     static play p;
-    fe_world *world = new_world();
-    play_begin(&p, world);
-    play_until(&p, &script_brief, 30);
+    fe_world *world = played(&p, &script_brief, 30);
     bytes base = save(world);
     play_until(&p, &script_brief, 31);
     bytes other = save(world), diff = save_diff(world, base), none = {NULL, 0}, after;
@@ -231,13 +231,11 @@ static void the_number_is_that_of_the_saved_world(void **state)
     enum { OTHER = 9, RECEIVER = 3 };
     static play p;
     fe_world_def def = definition();
-    fe_world *world = new_world(), *other, *receiver;
+    fe_world *world = played(&p, &script_brief, 30), *other, *receiver;
     def.number = OTHER;
     FE_TRUE(fe_world_create(&def, &other) == FE_OK);
     def.number = RECEIVER;
     FE_TRUE(fe_world_create(&def, &receiver) == FE_OK);
-    play_begin(&p, world);
-    play_until(&p, &script_brief, 30);
     bytes base = save(world), twin;
     fe_restore_options options;
     fe_restore_options_init(&options, sizeof options);
@@ -254,27 +252,17 @@ static void the_number_is_that_of_the_saved_world(void **state)
     FE_TRUE(fe_world_destroy(receiver) == FE_OK);
 }
 
-static fe_body add_body(fe_world *world, double x)
-{
-    fe_body body;
-    fe_body_def def;
-    fe_body_def_init(&def, sizeof def);
-    def.transform.position.x = x;
-    FE_TRUE(fe_body_create(world, &def, &body) == FE_OK);
-    return body;
-}
-
 // Bodies that took the slots of others, more of them than one looks ahead: what they cost is their own rows
 static void what_was_replaced_costs_its_own_bytes(void **state)
 {
     (void)state;
     enum { BODIES = 1000, REPLACED = 100, MOST = 2 }; // MOST: times a body's share of the whole
     fe_body bodies[BODIES];
-    fe_world *world = new_world();
-    for (int32_t i = 0; i < BODIES; ++i) bodies[i] = add_body(world, i);
+    fe_world *world = make_world();
+    for (int32_t i = 0; i < BODIES; ++i) bodies[i] = new_body(world, FE_BODY_DYNAMIC, i, 0.0, 0.0);
     bytes base = save(world);
     for (int32_t i = 0; i < REPLACED; ++i) FE_TRUE(fe_body_destroy(world, bodies[BODIES / 2 + i]) == FE_OK);
-    for (int32_t i = 0; i < REPLACED; ++i) (void)add_body(world, -i);
+    for (int32_t i = 0; i < REPLACED; ++i) (void)new_body(world, FE_BODY_DYNAMIC, -i, 0.0, 0.0);
     bytes whole = save(world), diff = save_diff(world, base);
     FE_TRUE(diff.size < MOST * REPLACED * (whole.size / BODIES));
     free(base.data), free(whole.data), free(diff.data);
@@ -290,9 +278,7 @@ typedef struct scene {
 static scene make_scene(void)
 {
     static play p;
-    scene s = {.world = new_world()};
-    play_begin(&p, s.world);
-    play_until(&p, &script_brief, 40);
+    scene s = {.world = played(&p, &script_brief, 40)};
     s.base = save(s.world);
     play_until(&p, &script_brief, 42);
     s.whole = save(s.world), s.diff = save_diff(s.world, s.base);

@@ -3,6 +3,7 @@
 // and the handles to come, too.
 //
 //   test_round_trip [moments]    20; 1000 before a release
+#include "api/api_test.h"
 #include "state/snapshot_bytes.h"
 #include "state/table.h"
 #include "support/fuzz_state.h"
@@ -26,19 +27,11 @@ static fe_world_def definition(const scene *s, int32_t workers, int32_t simd)
 }
 
 // Something to fall on, and to sleep on
-static void add_ground(fe_world *world)
+static void add_slab(fe_world *world)
 {
-    fe_body body;
-    fe_shape made;
-    fe_body_def def;
-    fe_shape_def shape;
     fe_geometry box;
-    fe_body_def_init(&def, sizeof def);
-    fe_shape_def_init(&shape, sizeof shape);
-    def.type = FE_BODY_STATIC, def.transform.position.y = -3.0;
     fe_geometry_box(&box, 30.0f, 1.0f, 30.0f);
-    FE_TRUE(fe_body_create(world, &def, &body) == FE_OK);
-    FE_TRUE(fe_shape_create(world, body, &shape, &box, &made) == FE_OK);
+    add_shape(world, new_body(world, FE_BODY_STATIC, 0.0, -3.0, 0.0), &box);
 }
 
 // ---- calls ---------------------------------------------------------------------------------------------------------
@@ -177,7 +170,7 @@ static void play_scene(uint32_t seed, int32_t moments)
     FE_TRUE(fe_store_create(&store, &s.store) == FE_OK);
     fe_world_def def = definition(&s, 1, FE_SIMD_AUTO);
     FE_TRUE(fe_world_create(&def, &s.f.world) == FE_OK);
-    add_ground(s.f.world);
+    add_slab(s.f.world);
     s.seed = seed;
     for (int32_t i = 0; i < moments; ++i) {
         refill(&s);
