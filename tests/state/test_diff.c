@@ -402,6 +402,36 @@ static void each_allocation_may_fail_and_nothing_changes(void **state)
     end_scene(&s);
 }
 
+static int64_t told_bytes(const fe_world *world)
+{
+    fe_counters counters = {.struct_size = sizeof counters};
+    FE_TRUE(fe_world_get_counters(world, &counters) == FE_OK);
+    return counters.bytes;
+}
+
+// A world that never stepped has no scratch yet: a restore opens it, and may find no memory for it
+static void a_restore_that_fails_tells_the_memory_there_is(void **state)
+{
+    (void)state;
+    scene s = make_scene();
+    counting c = {.fail_count = 1};
+    fe_allocator allocator = counting_allocator(&c);
+    fe_world_def def = definition();
+    def.allocator = &allocator;
+    fe_result result = FE_ERROR_MEMORY;
+    for (int32_t fail_from = 1; result != FE_OK; ++fail_from) {
+        fe_world *world;
+        c.fail_from = 0;
+        FE_TRUE(fe_world_create(&def, &world) == FE_OK);
+        int64_t besides = c.bytes - told_bytes(world); // what the world does not count
+        c.calls = 0, c.fail_from = fail_from;
+        result = fe_world_restore(world, NULL, s.whole.data, s.whole.size);
+        assert_int_equal(c.bytes - told_bytes(world), besides);
+        FE_TRUE(fe_world_destroy(world) == FE_OK);
+    }
+    end_scene(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -421,6 +451,7 @@ int main(void)
         cmocka_unit_test(runs_that_lie_are_refused),
         cmocka_unit_test(a_size_that_cannot_be_is_refused),
         cmocka_unit_test(each_allocation_may_fail_and_nothing_changes),
+        cmocka_unit_test(a_restore_that_fails_tells_the_memory_there_is),
     };
     return cmocka_run_group_tests(tests, open_store, close_store);
 }
