@@ -168,7 +168,9 @@ PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell getconf _NPRO
 
 # examples/level.c reads its files with assimp. `make examples` leaves it out where there is none.
 WITHOUT_ASSIMP := $(shell pkg-config --exists assimp 2>/dev/null || echo examples/level.c)
-EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%$(EXE),$(filter-out $(WITHOUT_ASSIMP),$(sort $(wildcard examples/*.c))))
+# examples/rollback_udp.c starts its processes with fork.
+WITHOUT_FORK := $(if $(EXE),examples/rollback_udp.c)
+EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%$(EXE),$(filter-out $(WITHOUT_ASSIMP) $(WITHOUT_FORK),$(sort $(wildcard examples/*.c))))
 
 $(BUILD)/feather-%$(EXE): $(BUILD)/examples/%.o $(STATIC)
 	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) $(READER) -lm -o $@
