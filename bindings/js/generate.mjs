@@ -143,7 +143,7 @@ const LISTS = {
 };
 const counted = new Set(Object.entries(LISTS).filter(([, l]) => l[1]).map(([k, l]) => k.split('.')[0] + '.' + l[1]));
 counted.add('fe_restore_options.asset_count');
-for (const r of ['fe_save_options', 'fe_restore_options']) counted.add(`${r}.base_size`); // differences to a base are left out
+for (const r of ['fe_save_options', 'fe_restore_options']) counted.add(`${r}.base_size`); // hand.js sets it with the base
 const laidOut = (r, f) => /_stride$|^index_type$/.test(f.name) || counted.has(r.name + '.' + f.name);
 // What lies deeper, by a shorter name
 const ALIASES = {
@@ -441,7 +441,7 @@ import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, ui
 const i64of = (a) => BigInt.asIntN(64, u64[a >> 3]);
 export const made = {};
 export const HIT_BYTES = ${records.fe_hit.size}, VERTEX_BYTES = ${records.fe_draw_vertex.size}, INSTANCE_BYTES = ${records.fe_draw_instance.size};
-export const AT = { store: ${offsetOf('fe_world_def', 'store')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, playerStore: ${offsetOf('fe_player_def', 'store')} };
+export const AT = { store: ${offsetOf('fe_world_def', 'store')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, saveBase: [${offsetOf('fe_save_options', 'base')}, ${offsetOf('fe_save_options', 'base_size')}], restoreBase: [${offsetOf('fe_restore_options', 'base')}, ${offsetOf('fe_restore_options', 'base_size')}], playerStore: ${offsetOf('fe_player_def', 'store')} };
 export const NOTE_BYTES = ${records.fe_note.size};
 export const HitLayout = { ${hitLayout.join(', ')} };
 ${constants.join('\n')}

@@ -273,9 +273,23 @@ const worldDef = (at, options) => {
     if (store !== undefined) u32[(at + api.AT.store) >> 2] = store instanceof Store ? store._s() : wrong('options.store', 'a Store', store);
     return at;
 };
+// The snapshot that bytes are the difference to
+const setBase = (at, [base, size], bytes) => {
+    if (bytes === undefined || bytes === null) return;
+    const [from, length] = bytesIn(bytes, 'options.base');
+    u32[(at + base) >> 2] = from, u64[(at + size) >> 3] = length;
+};
+const saveOptions = (at, options) => {
+    if (options === undefined || options === null) return 0;
+    const { base, ...rest } = options;
+    if (base !== undefined && base !== null) rest.flags = ['diff', ...(rest.flags === undefined ? [] : [rest.flags].flat())];
+    make($save_options, at, rest, 'options');
+    setBase(at, api.AT.saveBase, base);
+    return at;
+};
 const restoreOptions = (at, options) => {
     if (options === undefined || options === null) return 0;
-    const { assets = [], ...rest } = options;
+    const { assets = [], base, ...rest } = options;
     if (!Array.isArray(assets)) wrong('options.assets', 'an array of assets', assets);
     const found = assets.map((a, k) => (a instanceof Asset ? a.key : wrong(`options.assets[${k}]`, 'an asset', a)));
     const keys = temp(16 * assets.length), [handles, n] = listIn('h', assets, 'options.assets');
@@ -283,6 +297,7 @@ const restoreOptions = (at, options) => {
     make($restore_options, at, rest, 'options');
     i32[(at + api.AT.assetCount) >> 2] = n;
     u32[(at + api.AT.keys) >> 2] = n ? keys : 0, u32[(at + api.AT.assets) >> 2] = n ? handles : 0;
+    setBase(at, api.AT.restoreBase, base);
     return at;
 };
 
@@ -429,7 +444,11 @@ export class World extends api.WorldCalls {
     #hits(at, n) { return Array.from({ length: n }, (_, k) => (u64[(at + HIT * k) >> 3] ? api.readHit(at + HIT * k) : null)); }
 
     // ---- snapshots ----
-    save(options, into) { reset(); return bytesOut((at, n) => x.fe_world_save(this._w(), maybe($save_options, scratch, options, 'options'), at, n), into, 'into'); }
+    save(options, into) {
+        reset();
+        const o = saveOptions(scratch, options);
+        return bytesOut((at, n) => x.fe_world_save(this._w(), o, at, n), into, 'into');
+    }
     // False when the bytes are of a library whose results differ: it goes on, not bit for bit
     restore(bytes, options) {
         reset();

@@ -151,7 +151,9 @@ export class Player {
 }
 
 export interface WorldOptions extends WorldDefOptions { store?: Store }
-export interface RestoreOptions extends RestoreOptionsOptions { assets?: readonly Asset[] }
+/** `base`: a whole snapshot; what differs from it is saved, and whoever restores that has the base, too. */
+export interface SaveOptions extends SaveOptionsOptions { base?: ArrayBuffer | ArrayBufferView | null }
+export interface RestoreOptions extends RestoreOptionsOptions { assets?: readonly Asset[]; base?: ArrayBuffer | ArrayBufferView | null }
 
 export class World extends WorldCalls {
     constructor(options?: WorldOptions | null);
@@ -185,7 +187,7 @@ export class World extends WorldCalls {
     raycastMany(rays: ArrayLike<number>, filter?: QueryFilterOptions | null): (Hit | null)[];
     raycastRaw(rays: ArrayLike<number>, filter?: QueryFilterOptions | null): RawHits;
     sweepMany(geometry: GeometryOptions, paths: readonly PathOptions[], filter?: QueryFilterOptions | null): (Hit | null)[];
-    save(options?: SaveOptionsOptions | null, into?: Uint8Array): Uint8Array;
+    save(options?: SaveOptions | null, into?: Uint8Array): Uint8Array;
     /** False when the bytes are of a library whose results differ. */
     restore(bytes: ArrayBuffer | ArrayBufferView, options?: RestoreOptions | null): boolean;
     static load(bytes: ArrayBuffer | ArrayBufferView, options?: RestoreOptions | null, def?: WorldOptions | null): World;

@@ -328,9 +328,9 @@ export function textIn(v, name) {
 export function bytesOut(call, into, name) {
     const size = Number(call(0, 0n));
     ok(size < 0 ? size : 0);
-    const at = temp(size);
-    ok(Math.min(Number(call(at, BigInt(size))), 0));
-    return bytesWritten(at, size, into, name);
+    const at = temp(size), written = Number(call(at, BigInt(size))); // a difference is asked for more than it takes
+    ok(Math.min(written, 0));
+    return bytesWritten(at, written, into, name);
 }
 // A copy of bytes of the module, or into `into`
 export function bytesWritten(at, size, into, name) {

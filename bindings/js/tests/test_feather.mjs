@@ -151,6 +151,28 @@ test('snapshots go on bit for bit, in place and anew, in a buffer of the caller,
     copy.destroy(), world.destroy(), stranger.destroy();
 });
 
+test('a difference is smaller than a snapshot, and goes on bit for bit with its base alone', () => {
+    const world = new World();
+    pile(world);
+    for (let i = 0; i < 120; ++i) world.step(1 / 60);
+    const base = world.save();
+    world.step(1 / 60);
+    const difference = world.save({ base }), whole = world.save(), at = world.hash;
+    assert.ok(difference.length < whole.length / 2, `${difference.length} of ${whole.length} bytes`);
+    assert.ok(Buffer.from(world.save({ base: base.buffer, flags: 'diff' })).equals(Buffer.from(difference)));
+    const copy = World.load(difference, { base });
+    assert.ok(Buffer.from(copy.save()).equals(Buffer.from(whole)));
+    world.step(1 / 60);
+    assert.throws(() => world.restore(difference), { code: /FE_ERROR/ });
+    assert.throws(() => world.restore(difference, { base: whole }), { code: 'FE_ERROR_DATA' });
+    assert.throws(() => world.restore(difference, { base: 'text' }), TypeError);
+    assert.throws(() => world.save({ base: 5 }), TypeError);
+    assert.throws(() => world.save({ base: difference }), { code: 'FE_ERROR_DATA' });
+    assert.equal(world.restore(difference, { base }), true);
+    assert.equal(world.hash, at);
+    copy.destroy(), world.destroy();
+});
+
 test('a history goes back bit for bit, and refuses frames that it has not', () => {
     const world = new World(), bodies = pile(world), history = world.createHistory({ frames: 4 }), hashes = [];
     for (let i = 0; i < 10; ++i) {
