@@ -113,7 +113,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/$(if $(WINDOWS),libfeather.dll.a,libfeather.so)
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples gallery tests check test test-long test-state fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples gallery tests read-tests check test test-long test-state fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -209,6 +209,9 @@ $(BUILD)/feather-golden$(EXE): $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 tests: $(TEST_PROGRAMS)
+# The warnings of a compiler about them, without building them
+read-tests:
+	$(RUN)$(CC) $(C_FLAGS) -Itests $(STRICT) -fsyntax-only $(TEST_SOURCES)
 check test test-long test-state: export MAKE := $(MAKE)
 check test test-long test-state: export CC := $(CC)
 check test test-long test-state: export CXX := $(CXX)
