@@ -99,7 +99,7 @@ static double make_sure(const fe__approach *s, const fe__cores *cores, fe__core_
     int32_t is_along = fe__ddot(side, n) > NEARLY_ALONG;
     if (!is_along && gap->apart_by >= least) return gap->distance; // GJK has met a plane that shows it
     double sure = sure_distance(cores, n);
-    if (sure < least || is_along) {
+    if ((sure < least && fe__ddot(side, side) > 0.0) || is_along) { // two hulls have no side that is known
         double by_side = sure_distance(cores, side);
         if (by_side > sure) sure = by_side, gap->away = fe__dscale(gap->distance, side);
     }
