@@ -105,6 +105,8 @@ typedef struct fe_store fe_store;       ///< assets that several worlds may shar
 typedef struct fe_recorder fe_recorder; ///< a recording of a world while it grows
 typedef struct fe_player fe_player;     ///< a world that does what a recording says
 typedef struct fe_history fe_history;   ///< the last frames of a world, to go back to
+typedef struct fe_state fe_state;       ///< what a world was, for any world of the same store
+typedef struct fe_batch fe_batch;       ///< many worlds, made from one, that step together
 
 /// A vector: m, m/s, N... as its field says.
 typedef struct fe_vec3 {
@@ -1932,6 +1934,115 @@ typedef struct fe_history_frame {
 /// @return how many, or an error
 FE_API int32_t fe_history_get_frames(const fe_history *history, fe_history_frame *out_frames, uint32_t stride,
                                      int32_t capacity);
+
+// ---- many worlds ----------------------------------------------------------------------------------------------------
+//
+// For learning, sweeps and servers: clones of a world, states to set it back to, and batches, which step thousands of
+// worlds with one call. docs/MANY.md has an example and what it costs.
+
+/// A world like another one: poses, contacts, impulses, sleep, events, handles, the pair filter. Both go on bit for
+/// bit. It shares the store of the source; a store that was the source's own then lives as long as any of its clones.
+/// Not cloned are recorders and histories.
+/// @param def  as of fe_world_load: of it count workers, pool, allocator, tasks, SIMD set. NULL: the defaults
+/// @return FE_ERROR_ARGUMENT when the definition has another store than the source's
+FE_API fe_result fe_world_clone(const fe_world *source, const fe_world_def *def, fe_world **out_world);
+
+/// What the world is now, to set it back to. Never changes, belongs to no world, and keeps the store.
+/// @param allocator  of its memory, NULL: malloc. It is called when the state is destroyed, too
+FE_API fe_result fe_state_create(const fe_world *world, const fe_allocator *allocator, fe_state **out_state);
+/// @return FE_ERROR_STALE for one that is gone
+FE_API fe_result fe_state_destroy(fe_state *state);
+/// The world becomes what the state is of, in the time of a copy: that world, a clone of it, or any that uses the same
+/// store. Handles are those of the state. Heights and materials that were edited since are put back, for every world
+/// that has them. Many threads may use one state at once.
+/// @return FE_ERROR_STATE when the state is of another store; FE_ERROR_STALE; FE_ERROR_MEMORY; FE_ERROR_STEPPING,
+///         FE_ERROR_BUSY also when another world with an edited asset is. Nothing changed then
+FE_API fe_result fe_world_set_state(fe_world *world, const fe_state *state);
+
+/// How many worlds, and who steps them.
+typedef struct fe_batch_def {
+    uint32_t struct_size;
+    int32_t world_count;  ///< 1..1048576. Default 1
+    int32_t worker_count; ///< 1..64; without a pool or tasks. Default 1
+    int32_t block;        ///< worlds that a worker takes at once, 0: chosen. Never shows in results. Default 0
+    int32_t simd;         ///< fe_simd. Default FE_SIMD_AUTO
+    uint32_t reserved;
+    fe_pool *pool;                 ///< NULL: none
+    const fe_task_system *tasks;   ///< NULL: none
+    const fe_allocator *allocator; ///< of all memory, called by any worker at any time. NULL: malloc
+} fe_batch_def;
+
+FE_API void fe_batch_def_init(fe_batch_def *def, uint32_t struct_size);
+/// So many clones of a world, which stays the caller's. A handle of it names the same thing in each of them. Each is
+/// stepped by one worker.
+FE_API fe_result fe_batch_create(const fe_world *source, const fe_batch_def *def, fe_batch **out_batch);
+/// Its worlds go with it.
+/// @return FE_ERROR_STALE for one that is gone; FE_ERROR_BUSY while one of its worlds is in a call
+FE_API fe_result fe_batch_destroy(fe_batch *batch);
+/// One of the worlds, for all other calls but fe_world_destroy and fe_recorder_create (FE_ERROR_STATE).
+FE_API fe_result fe_batch_get_world(const fe_batch *batch, int32_t index, fe_world **out_world);
+
+/// A row of numbers of a body, a joint or a world. A joint's row is of its free axis: the hinge's, the distance, or the
+/// first axis of a configurable joint that is not locked; a ball or fixed joint has none (it reads 0, and takes
+/// nothing: FE_ERROR_STATE).
+typedef enum fe_field {
+    FE_FIELD_NONE = 0,
+    FE_FIELD_TRANSFORM = 1,    ///< body, 7, read and written: position, rotation x y z w
+    FE_FIELD_VELOCITY = 2,     ///< body, 6, read and written: linear, angular, as fe_world_set_velocities
+    FE_FIELD_FORCE = 3,        ///< body, 6, written: force, torque, as fe_world_add_forces
+    FE_FIELD_AWAKE = 4,        ///< body, 1, read: 1 or 0
+    FE_FIELD_JOINT = 5,        ///< joint, 2, read: angle, translation or length, rad or m, and its rate
+    FE_FIELD_JOINT_FORCE = 6,  ///< joint, 1, written: N or N m on B along or about the axis, the opposite on A
+    FE_FIELD_JOINT_SPEED = 7,  ///< joint, 1, written: fe_joint_set_motor_speed
+    FE_FIELD_JOINT_TARGET = 8, ///< joint, 1, written: fe_joint_set_target
+    FE_FIELD_REACTION = 9,     ///< joint, 6, read: force, torque, as fe_joint_get_reaction
+    FE_FIELD_GRAVITY = 10,     ///< the world, 3, read and written
+    FE_FIELD_FORCE32 = 0x7fffffff
+} fe_field;
+
+/// A packed array of the caller's: for each world, for each item, the numbers of a row.
+typedef struct fe_array {
+    uint32_t struct_size;
+    int32_t field;          ///< fe_field
+    int32_t item_count;     ///< >= 1; 1 for the world itself
+    int32_t is_double;      ///< 1: double, 0: float. Default 0
+    fe_body relative_to;    ///< read in this body's frame: poses relative to it, vectors along its axes. 0: the world's
+    fe_dvec3 origin;        ///< m, of the world's frame, that positions are read from
+    const fe_handle *items; ///< of the template; copied. NULL for the world itself
+    void *data;             ///< world_count x item_count x the row
+    int64_t bytes;          ///< of `data`: exactly these
+} fe_array;
+
+FE_API void fe_array_init(fe_array *array, uint32_t struct_size);
+/// The arrays that each fe_batch_step reads before its first step and fills after its last, while a world is in its
+/// worker's cache. They replace those bound before, and must live until then, or until the batch ends.
+/// @return FE_ERROR_ARGUMENT for a field that is not read or not written, sizes that do not fit, or a written one with
+///         a frame; FE_ERROR_STALE, FE_ERROR_KIND for an item that the first world does not have. Nothing changed then
+FE_API fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t input_count, const fe_array *outputs,
+                               int32_t output_count);
+/// Steps each world as fe_world_step does, bit for bit, whatever the workers, the block and the mask. A world that
+/// fails stands after its last whole step, and the others go on. An input that a world cannot take fails that world:
+/// nothing of its row is taken. So does an item that is gone: its outputs are 0 (FE_ERROR_STALE). fe_last_error names
+/// the first.
+/// @param dt           s, as fe_world_step
+/// @param steps        1..1000; the inputs hold in all of them
+/// @param mask         a byte a world, 0: left alone; NULL: all
+/// @param out_results  fe_result of each world, FE_OK of those left alone; or NULL
+/// @return how many worlds failed; negative: an error, and nothing changed: FE_ERROR_BUSY when a world is in a call
+FE_API int32_t fe_batch_step(fe_batch *batch, float dt, int32_t steps, const uint8_t *mask, int32_t *out_results);
+/// Sets worlds back to what the template was, or to states of theirs.
+/// @param states  one a world, NULL: the template's; NULL: all of them
+/// @return as fe_batch_step; FE_ERROR_STALE, FE_ERROR_STATE for a state that is gone, or of another store
+FE_API int32_t fe_batch_reset(fe_batch *batch, const uint8_t *mask, const fe_state *const *states,
+                              int32_t *out_results);
+/// Reads a field of every world into an array.
+/// @return as fe_batch_step: worlds that lack an item
+FE_API int32_t fe_batch_read(fe_batch *batch, const fe_array *array, int32_t *out_results);
+/// Writes a field of worlds from an array, for each world all rows or none.
+FE_API int32_t fe_batch_write(fe_batch *batch, const fe_array *array, const uint8_t *mask, int32_t *out_results);
+/// fe_world_hash of each world.
+/// @param out_words  two a world
+FE_API fe_result fe_batch_hash(fe_batch *batch, uint32_t *out_words);
 
 // ---- recordings -----------------------------------------------------------------------------------------------------
 //

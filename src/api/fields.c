@@ -114,6 +114,12 @@ DEFINE(fe_difference)
 #define THIS fe_history_def
 DEFINE(fe_history_def)
 #undef THIS
+#define THIS fe_batch_def
+DEFINE(fe_batch_def)
+#undef THIS
+#define THIS fe_array
+DEFINE(fe_array)
+#undef THIS
 #define THIS fe_draw_options
 DEFINE(fe_draw_options)
 #undef THIS

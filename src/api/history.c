@@ -1,6 +1,7 @@
 // history.c - the API of histories: frames of a world to go back to.
 #include "state/history.h"
 #include "api/record.h"
+#include "api/world.h"
 #include "core/fp_state.h"
 
 #include <string.h>
@@ -61,10 +62,8 @@ fe_result fe_history_keep(fe_history *history, int64_t frame)
     return fe__report(function, result);
 }
 
-static fe_result report_return(const char *function, fe_result result, int64_t frame)
+fe_result fe__report_return(const char *function, fe_result result)
 {
-    if (result == FE_ERROR_STALE)
-        return fe__fail(function, result, "frame %lld is not kept, or no longer", (long long)frame);
     if (result == FE_ERROR_STEPPING || result == FE_ERROR_BUSY) {
         const char *why = result == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
         return fe__fail(function, result, "a world that uses an asset edited since %s; nothing was changed", why);
@@ -80,7 +79,9 @@ fe_result fe_history_restore(fe_history *history, int64_t frame)
     fe_result result = fe__history_restore(history, frame);
     fe__fp_leave(fp);
     if (result == FE_OK && world->recorder) fe__record_jump(world->recorder);
-    return report_return(function, result, frame);
+    if (result == FE_ERROR_STALE)
+        return fe__fail(function, result, "frame %lld is not kept, or no longer", (long long)frame);
+    return fe__report_return(function, result);
 }
 
 int32_t fe_history_get_frames(const fe_history *history, fe_history_frame *out_frames, uint32_t stride,

@@ -1,41 +1,8 @@
 // joint_drive.c - the API of what a game changes each step: speed of a motor, target of a spring, nothing else.
 #include "api/joint_def.h"
 #include "api/record.h"
-#include "world/joint_state.h"
+#include "world/joint_drive.h"
 #include "world/joints.h"
-
-// The motor's speed of a degree of freedom; NULL: the joint has no such motor
-static float *motor_speed_of(fe__joint_any *def, int32_t type, int32_t dof)
-{
-    switch (type) {
-    case FE_JOINT_DISTANCE:
-        return dof == FE_DOF_LINEAR_X ? &def->distance.motor_speed : NULL;
-    case FE_JOINT_BALL: {
-        float *velocity[3] = {&def->ball.motor_velocity.x, &def->ball.motor_velocity.y, &def->ball.motor_velocity.z};
-        return dof >= FE_DOF_ANGULAR_X ? velocity[dof - FE_DOF_ANGULAR_X] : NULL;
-    }
-    case FE_JOINT_HINGE:
-        return dof == FE_DOF_ANGULAR_X ? &def->hinge.motor_speed : NULL;
-    case FE_JOINT_CONFIGURABLE:
-        return &def->configurable.axes[dof].motor_speed;
-    default:
-        return NULL;
-    }
-}
-
-static float *target_of(fe__joint_any *def, int32_t type, int32_t dof)
-{
-    switch (type) {
-    case FE_JOINT_DISTANCE:
-        return dof == FE_DOF_LINEAR_X ? &def->distance.target : NULL;
-    case FE_JOINT_HINGE:
-        return dof == FE_DOF_ANGULAR_X ? &def->hinge.target : NULL;
-    case FE_JOINT_CONFIGURABLE:
-        return &def->configurable.axes[dof].target;
-    default:
-        return NULL;
-    }
-}
 
 typedef float *(*field_of)(fe__joint_any *def, int32_t type, int32_t dof);
 
@@ -61,7 +28,7 @@ static fe_result set(const char *function, fe_world *world, fe_joint joint, int3
 fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed)
 {
     FE_WRITE(world);
-    FE_TRY(set(function, world, joint, dof, motor_speed_of, "speed", speed));
+    FE_TRY(set(function, world, joint, dof, fe__joint_motor_speed, "speed", speed));
     FE_RECORD(joint_set_motor_speed, joint, dof, speed);
     return FE_OK;
 }
@@ -69,7 +36,7 @@ fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof,
 fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target)
 {
     FE_WRITE(world);
-    FE_TRY(set(function, world, joint, dof, target_of, "target", target));
+    FE_TRY(set(function, world, joint, dof, fe__joint_target, "target", target));
     FE_RECORD(joint_set_target, joint, dof, target);
     return FE_OK;
 }

@@ -42,6 +42,8 @@ fe_result fe_recorder_create(fe_world *world, const fe_recorder_def *def, fe_rec
     FE_TRY(read_def(function, def, &full));
     if (world->recorder)
         return fe__fail(function, FE_ERROR_STATE, "the world has a recorder already: destroy that first");
+    if (world->batch)
+        return fe__fail(function, FE_ERROR_STATE, "the world is one of a batch: record a clone that makes its calls");
     fe_result result;
     fe__fp_state fp = fe__fp_enter();
     fe_recorder *made = fe__recorder_create(world, full.flags, full.keyframe_steps, full.buffer_bytes, &result);

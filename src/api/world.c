@@ -29,7 +29,7 @@ void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
     fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy)
+fe_result fe__read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy)
 {
     FE_READ_STRUCT(tasks, copy);
     FE_CHECK_POINTER(copy->run);
@@ -37,17 +37,10 @@ static fe_result read_tasks(const char *function, const fe_task_system *tasks, f
     return FE_OK;
 }
 
-// The definition with everything it points to
-typedef struct whole_def {
-    fe_world_def def;
-    fe_allocator allocator;
-    fe_task_system tasks;
-} whole_def;
-
-static fe_result read_world_def(const char *function, const fe_world_def *def, whole_def *whole)
+fe_result fe__read_world_def(const char *function, const fe_world_def *def, fe__whole_def *whole)
 {
     fe_world_def *full = &whole->def;
-    *whole = (whole_def){.def = default_world()};
+    *whole = (fe__whole_def){.def = default_world()};
     if (!def) return FE_OK;
     FE_READ_STRUCT(def, full);
     FE_CHECK_INT(full->worker_count, 1, FE_MAX_WORKERS);
@@ -60,32 +53,33 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
         full->allocator = &whole->allocator;
     }
     if (full->tasks) {
-        FE_TRY(read_tasks(function, full->tasks, &whole->tasks));
+        FE_TRY(fe__read_tasks(function, full->tasks, &whole->tasks));
         full->tasks = &whole->tasks;
     }
     return FE_OK;
 }
 
-fe_result fe__create_world(const char *function, const fe_world_def *def, fe_world **out_world)
+fe_result fe__report_creation(const char *function, const fe_world_def *def, fe_result result)
 {
-    FE_CHECK_POINTER(out_world);
-    whole_def whole;
-    FE_TRY(read_world_def(function, def, &whole));
-    fe_world *world;
-    fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
         return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have",
-                        (int)whole.def.simd);
+                        (int)def->simd);
     }
     if (result == FE_ERROR_STALE) {
-        const char *gone = whole.def.pool && !fe__pool_lives(whole.def.pool) ? "pool" : "store";
+        const char *gone = def->pool && !fe__pool_lives(def->pool) ? "pool" : "store";
         return fe__fail(function, result, "%s was destroyed before the world was created", gone);
     }
     if (result == FE_ERROR_ARGUMENT)
         return fe__fail(function, result, "store is another world's own; give both one of fe_store_create");
-    FE_TRY(fe__report(function, result));
-    *out_world = world;
-    return FE_OK;
+    return fe__report(function, result);
+}
+
+fe_result fe__create_world(const char *function, const fe_world_def *def, fe_world **out_world)
+{
+    FE_CHECK_POINTER(out_world);
+    fe__whole_def whole;
+    FE_TRY(fe__read_world_def(function, def, &whole));
+    return fe__report_creation(function, &whole.def, fe__world_create(&whole.def, NULL, out_world));
 }
 
 fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
@@ -96,6 +90,8 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
 fe_result fe_world_destroy(fe_world *world)
 {
     FE_WRITE(world);
+    if (world->batch)
+        return fe__fail(function, FE_ERROR_STATE, "the world is one of a batch: it goes with fe_batch_destroy");
     if (!fe__owner_be_alone(inside, FE__CLOSING)) {
         return fe__refuse_writer(function);
     }
@@ -126,21 +122,11 @@ fe_result fe_world_step(fe_world *world, float dt)
 
 // ---- settings ------------------------------------------------------------------------------------------------------
 
-static void wake_all(fe_world *world)
-{
-    for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next) {
-        if (world->bodies[body].type == FE_BODY_DYNAMIC) fe__body_disturb(world, body);
-    }
-}
-
-// Another gravity sets everything in motion.
 fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
 {
     FE_WRITE(world);
     FE_CHECK_VEC3(gravity, FE_MAX_SPEED);
-    int32_t same = gravity->x == world->gravity.x && gravity->y == world->gravity.y && gravity->z == world->gravity.z;
-    world->gravity = *gravity;
-    if (!same) wake_all(world);
+    fe__world_set_gravity(world, *gravity);
     FE_RECORD(world_set_gravity, gravity);
     return FE_OK;
 }
@@ -238,7 +224,7 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
         world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
     int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
-    if (wakes) wake_all(world);
+    if (wakes) fe__world_wake_all(world);
     if (!same_reach) {
         fe__fp_state fp = fe__fp_enter();
         renew_boxes(world);

@@ -45,11 +45,20 @@ fe_result fe__registry_retain(fe__registry *registry, fe__entry *entry)
     return result;
 }
 
-void fe__registry_release(fe__registry *registry, fe__entry *entry)
+void fe__registry_share(fe__registry *registry, fe__entry *entry)
 {
     fe__mutex_lock(&registry->lock);
-    entry->users -= 1;
+    entry->users += 1;
     fe__mutex_unlock(&registry->lock);
+}
+
+int32_t fe__registry_release(fe__registry *registry, fe__entry *entry)
+{
+    fe__mutex_lock(&registry->lock);
+    int32_t left = entry->users -= 1;
+    if (entry->owned && left == 0) unlink_entry(registry, entry);
+    fe__mutex_unlock(&registry->lock);
+    return left;
 }
 
 fe_result fe__registry_withdraw(fe__registry *registry, fe__entry *entry, int32_t *out_users)

@@ -362,6 +362,33 @@ void fe__pool_assume_cores(fe_pool *pool, int32_t core_count) { atomic_store(&po
 
 // ---- what a world runs on ------------------------------------------------------------------------------------------
 
+fe_result fe__workers_hire(fe__workers *workers, const fe_task_system *tasks, fe_pool *pool, int32_t count)
+{
+    *workers = (fe__workers){.count = 1};
+    if (tasks) {
+        workers->tasks = *tasks;
+        workers->count = tasks->worker_count;
+        return FE_OK;
+    }
+    if (!pool && count > 1) {
+        pool = workers->own_pool = fe__pool_create(count);
+        if (!pool) return FE_ERROR_MEMORY;
+    }
+    if (!pool) return FE_OK;
+    fe_result retained = fe__pool_retain(pool);
+    if (retained != FE_OK) return retained;
+    workers->pool = pool;
+    workers->count = fe__pool_worker_count(pool);
+    return FE_OK;
+}
+
+void fe__workers_dismiss(fe__workers *workers)
+{
+    if (workers->pool) fe__pool_release(workers->pool);
+    if (workers->own_pool) fe__pool_destroy(workers->own_pool);
+    workers->pool = workers->own_pool = NULL;
+}
+
 typedef struct host_run {
     fe_task task;
     void *argument;

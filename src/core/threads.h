@@ -36,8 +36,13 @@ void fe__pool_assume_cores(fe_pool *pool, int32_t core_count);
 typedef struct fe__workers {
     int32_t count;        // 1: inline, no thread
     fe_pool *pool;        // or NULL
+    fe_pool *own_pool;    // the same, where nobody else has it
     fe_task_system tasks; // run == NULL: the pool
 } fe__workers;
+// The host's task system, or a shared pool, or else so many workers of its own. FE_ERROR_MEMORY; FE_ERROR_STALE: the
+// pool is gone. Whatever comes of it, they are dismissed.
+fe_result fe__workers_hire(fe__workers *workers, const fe_task_system *tasks, fe_pool *pool, int32_t count);
+void fe__workers_dismiss(fe__workers *workers);
 void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t count);
 
 // Blocks of [0, count) claimed by whoever comes: each worker gets a disjoint range [first, end). Runs inline when one

@@ -46,11 +46,11 @@ static unsigned char *content_of(const fe__asset *a, int64_t *out_size)
     return (unsigned char *)a->materials;
 }
 
-static fe__edition *take_edition(fe_world *w, const fe__asset *a)
+static fe__edition *take_edition(fe__memory *memory, const fe__asset *a)
 {
     int64_t size;
     const unsigned char *content = content_of(a, &size);
-    fe__edition *edition = fe__allocate_scratch(&w->memory, sizeof *edition + (size_t)size);
+    fe__edition *edition = fe__allocate_scratch(memory, sizeof *edition + (size_t)size);
     if (!edition) return NULL;
     *edition = (fe__edition){.number = a->edition, .size = size};
     memcpy(edition->content, content, (size_t)size);
@@ -66,16 +66,16 @@ static fe__edition *known_edition(const fe__held *before, const fe__asset *a)
     return NULL;
 }
 
-static int32_t hold_asset(fe__held *held, fe_world *w, const fe__held *before, int32_t record)
+static int32_t hold_asset(fe__held *held, const fe_world *w, fe__memory *memory, const fe__held *before, int32_t record)
 {
     const fe__asset *a = fe__store_parent(w->store, record);
     fe__held_asset taken = {record, a->index, NULL};
     int64_t size;
     content_of(a, &size);
-    if (size > 0) {
+    if (size > 0 && memory) {
         taken.edition = known_edition(held, a);
         if (!taken.edition) taken.edition = known_edition(before, a);
-        if (!taken.edition) taken.edition = take_edition(w, a);
+        if (!taken.edition) taken.edition = take_edition(memory, a);
         if (!taken.edition) return 0;
         ++taken.edition->users;
     }
@@ -84,31 +84,31 @@ static int32_t hold_asset(fe__held *held, fe_world *w, const fe__held *before, i
     return 1;
 }
 
-static void forget_assets(fe_world *w, fe__held *held)
+static void forget_assets(fe__held *held, fe_store *store, fe__memory *memory)
 {
     for (int32_t i = 0; i < held->asset_count; ++i) {
         fe__edition *edition = held->assets[i].edition;
-        fe__asset_release(w->store, held->assets[i].record);
-        if (edition && --edition->users == 0) fe__release(&w->memory, edition, sizeof *edition + (size_t)edition->size);
+        fe__asset_release(store, held->assets[i].record);
+        if (edition && --edition->users == 0) fe__release(memory, edition, sizeof *edition + (size_t)edition->size);
     }
     held->asset_count = 0;
 }
 
-void fe__held_forget_assets(fe_world *w, fe__held *held)
+void fe__held_forget_assets(fe__held *held, fe_store *store, fe__memory *memory)
 {
     if (!held->asset_count) return;
-    fe__store_lock(w->store);
-    forget_assets(w, held);
-    fe__store_unlock(w->store);
+    fe__store_lock(store);
+    forget_assets(held, store, memory);
+    fe__store_unlock(store);
 }
 
-static int32_t hold_assets(fe__held *held, fe_world *w, const fe__held *before)
+static int32_t hold_assets(fe__held *held, const fe_world *w, fe__memory *memory, const fe__held *before)
 {
     int32_t whole = 1;
     if (!w->use_count) return 1;
     fe__store_lock(w->store);
-    for (int32_t i = 0; i < w->use_count && whole; ++i) whole = hold_asset(held, w, before, w->uses[i].asset);
-    if (!whole) forget_assets(w, held);
+    for (int32_t i = 0; i < w->use_count && whole; ++i) whole = hold_asset(held, w, memory, before, w->uses[i].asset);
+    if (!whole) forget_assets(held, w->store, memory);
     fe__store_unlock(w->store);
     return whole;
 }
@@ -154,14 +154,14 @@ static void copy_array(const fe__held *held, int32_t i, const void *elements)
         memcpy(held->arrays[i], elements, (size_t)held->used[i]);
 }
 
-int32_t fe__held_fill(fe__held *held, fe_world *w, const fe__held *before)
+int32_t fe__held_fill(fe__held *held, const fe_world *w, fe__memory *memory, const fe__held *before)
 {
     *held = (fe__held){.size = held->size,
                        .bytes = fe__held_size(w),
                        .rests = fe__world_rests(w),
                        .burdened = w->solver.burdened};
     lay_out(held, w);
-    if (!hold_assets(held, w, before)) return 0;
+    if (!hold_assets(held, w, memory, before)) return 0;
     unsigned char *at = held->members;
     for (int32_t i = 0; i < FE__MEMBERS; at += range_size(i), ++i)
         memcpy(at, (const unsigned char *)w + fe__state_members[i].first, (size_t)range_size(i));
@@ -278,17 +278,20 @@ static void return_members(const returning *r)
 {
     fe_world *w = r->world;
     const unsigned char *at = r->held->members;
+    const fe__tree_kernels *kernels = w->static_tree.kernels; // of this world's SIMD set
     for (int32_t i = 0; i < FE__MEMBERS; at += range_size(i), ++i)
         memcpy((unsigned char *)w + fe__state_members[i].first, at, (size_t)range_size(i));
     for (int32_t i = 0; i < FE__ARRAYS; ++i) fe__array_set(w, fe__arrays + i, r->elements[i]);
     w->joints.axes = (fe__joint_axes *)(void *)w->joint_axes.records;
+    w->static_tree.kernels = w->moving_tree.kernels = kernels;
 }
 
 fe_result fe__held_return(const fe__held *held, fe_world *w)
 {
     returning r = {.held = held, .world = w};
     if (!fe__open_step_scratch(w) || !make_room(&r)) return FE_ERROR_MEMORY;
-    fe__store_lock(w->store);
+    int32_t with_assets = held->asset_count || w->use_count; // without any nobody else looks at this world
+    if (with_assets) fe__store_lock(w->store);
     fe_result result = return_editions(&r);
     if (result == FE_OK) {
         return_uses(&r);
@@ -298,6 +301,6 @@ fe_result fe__held_return(const fe__held *held, fe_world *w)
     } else {
         release_new(&r, FE__ARRAYS);
     }
-    fe__store_unlock(w->store);
+    if (with_assets) fe__store_unlock(w->store);
     return result;
 }

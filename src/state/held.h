@@ -4,9 +4,10 @@
 #include "state/history.h"
 
 int64_t fe__held_size(const fe_world *world); // bytes of a block for its state
-// Into a block of that size. Editions are those of `before` where they still hold. 0: no memory for others
-int32_t fe__held_fill(fe__held *held, fe_world *world, const fe__held *before);
-void fe__held_forget_assets(fe_world *world, fe__held *held);
+// Into a block of that size. Editions are those of `before` where they still hold, or from `memory`. 0: there is none
+// for them. memory NULL: none are taken, as nothing is edited until the state returns
+int32_t fe__held_fill(fe__held *held, const fe_world *world, fe__memory *memory, const fe__held *before);
+void fe__held_forget_assets(fe__held *held, fe_store *store, fe__memory *memory);
 int64_t fe__held_bytes(const fe__held *held, const fe__held *before); // without the editions that `before` has
 // Is it the world's state, of which nobody wrote anything since? A world that moves is never asked
 int32_t fe__held_is_state(const fe__held *held, const fe_world *world);

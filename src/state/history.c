@@ -27,7 +27,7 @@ fe_result fe__history_create(fe_world *world, int32_t frames, int64_t most_bytes
 static void give_up(fe_history *h, fe__frame *frame)
 {
     if (--frame->held->users > 0) return;
-    fe__held_forget_assets(h->world, frame->held);
+    fe__held_forget_assets(frame->held, h->world->store, &h->world->memory);
     frame->held->next = h->spare;
     h->spare = frame->held;
 }
@@ -122,12 +122,12 @@ static fe__held *hold(fe_history *h, fe_result *result)
     fe__held *held = find_block(h, fe__held_size(w));
     *result = FE_ERROR_MEMORY;
     if (!held) return NULL;
-    if (fe__held_fill(held, w, before)) {
+    if (fe__held_fill(held, w, &w->memory, before)) {
         *result = h->most_bytes && (int64_t)sizeof(fe__frame) + fe__held_bytes(held, NULL) > h->most_bytes
                       ? FE_ERROR_LIMIT
                       : FE_OK;
         if (*result == FE_OK) return held;
-        fe__held_forget_assets(w, held);
+        fe__held_forget_assets(held, w->store, &w->memory);
     }
     held->next = h->spare;
     h->spare = held;

@@ -61,12 +61,6 @@ static void free_store(fe_store *store)
     fe__release(&memory, store, sizeof *store);
 }
 
-void fe__store_destroy(fe_store *store)
-{
-    fe__registry_remove(&stores, &store->entry);
-    free_store(store);
-}
-
 fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users)
 {
     fe_result result = fe__registry_withdraw(&stores, &store->entry, out_users);
@@ -92,6 +86,20 @@ fe_result fe__store_join(fe_store *store, fe__store_member *member)
     return result;
 }
 
+void fe__store_join_beside(fe_store *store, fe__store_member *member)
+{
+    fe__store_retain(store);
+    list_member(store, member);
+}
+
+void fe__store_retain(fe_store *store) { fe__registry_share(&stores, &store->entry); }
+
+void fe__store_release(fe_store *store)
+{
+    int32_t owned = store->entry.owned; // never changes
+    if (fe__registry_release(&stores, &store->entry) == 0 && owned) free_store(store);
+}
+
 fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe__store_member *member,
                                fe_store **out_store)
 {
@@ -114,7 +122,7 @@ void fe__store_leave(fe_store *store, fe__store_member *member)
         store->first_member = member->next;
     if (member->next) member->next->previous = member->previous;
     fe__store_unlock(store);
-    fe__registry_release(&stores, &store->entry);
+    fe__store_release(store);
 }
 
 // ---- assets --------------------------------------------------------------------------------------------------------

@@ -84,16 +84,20 @@ struct fe_store {
 
 // number 0: the next that no living store has
 fe_result fe__store_create(const fe_allocator *allocator, int32_t number, fe_store **out_store);
-// A world's own, which nobody else may use or destroy. The world has joined it, and shares the allocator and its guard.
+// A world's own, which nobody may use or destroy but those that it shares it with; it goes with the last of them. The
+// world has joined it, and shares the allocator and its guard.
 fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe__store_member *member,
                                fe_store **out_store);
-void fe__store_destroy(fe_store *store); // by its owner, who has left it
 // FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it, or it is a world's own (0).
 fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users);
 
 // A world begins to use the store. FE_ERROR_STALE: it is gone; FE_ERROR_ARGUMENT: it is another world's own.
 fe_result fe__store_join(fe_store *store, fe__store_member *member);
+void fe__store_join_beside(fe_store *store, fe__store_member *member); // a member is inside, and lets this one in
 void fe__store_leave(fe_store *store, fe__store_member *member);
+// What is no world, but has assets of it. By who uses the store already
+void fe__store_retain(fe_store *store);
+void fe__store_release(fe_store *store);
 
 void fe__store_lock(const fe_store *store);
 void fe__store_unlock(const fe_store *store);

@@ -12,9 +12,14 @@
 #include <string.h>
 
 // ---- the store -----------------------------------------------------------------------------------------------------
-fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
+fe_result fe__world_open_store(fe_world *world, const fe_world_def *def, const fe_world *source)
 {
     world->member.world = world;
+    if (source) {
+        fe__store_join_beside(source->store, &world->member);
+        world->store = source->store;
+        return FE_OK;
+    }
     if (def->store) {
         fe_result result = fe__store_join(def->store, &world->member);
         if (result == FE_OK) world->store = def->store;
@@ -22,7 +27,6 @@ fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
     }
     fe_result result = fe__store_create_own(def->allocator, world->number, &world->member, &world->store);
     if (result != FE_OK) return result;
-    world->owns_store = 1;
     world->memory.guard = world->store->memory.guard;
     return FE_OK;
 }
@@ -40,9 +44,8 @@ void fe__world_close_store(fe_world *world)
     fe__store_lock(world->store);
     fe__world_release_assets(world);
     fe__store_unlock(world->store);
-    fe__store_leave(world->store, &world->member);
     world->memory.guard = NULL;
-    if (world->owns_store) fe__store_destroy(world->store);
+    fe__store_leave(world->store, &world->member);
     world->store = NULL;
 }
 

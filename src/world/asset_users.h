@@ -6,9 +6,9 @@
 #include "store/mesh_asset.h"
 #include "world/world.h"
 
-// Joins the store of the definition, or makes one of the world's own. FE_ERROR_STALE, FE_ERROR_ARGUMENT: see
-// fe__store_join.
-fe_result fe__world_open_store(fe_world *world, const fe_world_def *def);
+// Joins the store of the source, if there is one, or of the definition, or makes one of the world's own.
+// FE_ERROR_STALE, FE_ERROR_ARGUMENT: see fe__store_join.
+fe_result fe__world_open_store(fe_world *world, const fe_world_def *def, const fe_world *source);
 void fe__world_close_store(fe_world *world); // whatever its shapes have
 
 // Room for the assets that a shape of that form has, with its parts: the next fe__shape_take_asset of each is certain.

@@ -31,40 +31,7 @@ fe_world_tuning fe__default_tuning(void)
                              .warm_start_enabled = 1};
 }
 
-// The host's task system, a shared pool, or workers of the world's own
-static fe_result hire_workers(fe_world *world, const fe_world_def *def)
-{
-    fe__workers *workers = &world->workers;
-    workers->count = 1;
-    if (def->tasks) {
-        workers->tasks = *def->tasks;
-        workers->count = def->tasks->worker_count;
-        return FE_OK;
-    }
-    if (def->pool) {
-        workers->pool = def->pool;
-    } else if (def->worker_count > 1) {
-        world->own_pool = fe__pool_create(def->worker_count);
-        if (!world->own_pool) return FE_ERROR_MEMORY;
-        workers->pool = world->own_pool;
-    }
-    if (!workers->pool) return FE_OK;
-    fe_result retained = fe__pool_retain(workers->pool);
-    if (retained != FE_OK) {
-        workers->pool = NULL;
-        return retained;
-    }
-    workers->count = fe__pool_worker_count(workers->pool);
-    return FE_OK;
-}
-
-static void dismiss_workers(fe_world *world)
-{
-    if (world->workers.pool) fe__pool_release(world->workers.pool);
-    if (world->own_pool) fe__pool_destroy(world->own_pool);
-}
-
-fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
+fe_result fe__world_create(const fe_world_def *def, const fe_world *source, fe_world **out_world)
 {
     const fe__kernels *kernels = fe__kernels_of(def->simd);
     if (!kernels) return FE_ERROR_UNSUPPORTED;
@@ -91,8 +58,8 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
     atomic_store(&world->point_count, 1);
-    fe_result result = hire_workers(world, def);
-    if (result == FE_OK) result = fe__world_open_store(world, def);
+    fe_result result = fe__workers_hire(&world->workers, def->tasks, def->pool, def->worker_count);
+    if (result == FE_OK) result = fe__world_open_store(world, def, source);
     if (result != FE_OK) {
         fe__world_destroy(world);
         return result;
@@ -114,7 +81,7 @@ void fe__world_destroy(fe_world *world)
     fe__solver_destroy(&world->solver, &world->memory);
     fe__world_close_store(world);
     fe__world_free_state(world);
-    dismiss_workers(world);
+    fe__workers_dismiss(&world->workers);
     fe__memory memory = world->memory;
     fe__release(&memory, world, sizeof *world);
 }

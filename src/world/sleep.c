@@ -173,3 +173,16 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
     while (world->awake_body_count > low) fe__body_fall_asleep(world, world->awake_bodies[world->awake_body_count - 1]);
     return FE_OK;
 }
+
+void fe__world_wake_all(fe_world *world)
+{
+    for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next)
+        if (world->bodies[body].type == FE_BODY_DYNAMIC) fe__body_disturb(world, body);
+}
+
+void fe__world_set_gravity(fe_world *world, fe_vec3 gravity)
+{
+    int32_t same = gravity.x == world->gravity.x && gravity.y == world->gravity.y && gravity.z == world->gravity.z;
+    world->gravity = gravity;
+    if (!same) fe__world_wake_all(world);
+}

@@ -5,6 +5,8 @@
 
 // Nothing is awake, and nothing waits to be looked at or told: a step moves on its own numbers only
 int32_t fe__world_rests(const fe_world *world);
+void fe__world_wake_all(fe_world *world);
+void fe__world_set_gravity(fe_world *world, fe_vec3 gravity); // another one sets everything in motion
 void fe__wake(fe_world *world,
               int32_t body); // it and all that touches it, through dynamic bodies; nothing on static ones
 void fe__wake_neighbours(fe_world *world, int32_t body); // all that touches it, not the body

@@ -32,12 +32,12 @@ typedef struct fe__asset_use {
 struct fe_world {
     fe__memory memory;
     fe__workers workers;
-    fe_pool *own_pool; // or NULL
     fe__owner owner;
     uint64_t user_data;
     int32_t number; // in its handles
 
     struct fe_history *first_history; // those that keep frames of this world (state/history.h)
+    const struct fe_batch *batch;     // whose it is, or NULL: nobody else's (batch/batch.h)
 
     fe_pair_filter pair_filter; // or NULL
     void *pair_filter_user;
@@ -59,8 +59,7 @@ struct fe_world {
     int32_t body_capacity, odometer_capacity, drift_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
-    fe_store *store; // of the assets that shapes have; its own, or of its definition
-    int32_t owns_store;
+    fe_store *store; // of the assets that shapes have; its own, of its definition, or of whom it is a clone
     fe__store_member member; // in the store's list
     fe__asset_use *uses;     // by rising asset; under the store's lock
     int32_t use_count, use_capacity;

@@ -1,0 +1,121 @@
+// batch.c - see batch.h: birth, death, who is inside, what is bound. What happens in a step is in batch_step.c.
+#include "batch/batch.h"
+
+#include "state/history.h"
+#include "world/lifetime.h"
+
+#include <string.h>
+
+static fe__registry batches = {.lock = FE_MUTEX_INITIAL};
+
+int32_t fe__batch_lives(const fe_batch *batch) { return fe__registry_has(&batches, &batch->entry); }
+
+// ---- birth and death -----------------------------------------------------------------------------------------------
+// A few blocks for each worker, so that one that falls behind is helped; no more than that, as each is claimed
+static int32_t choose_block(int32_t worlds, int32_t workers)
+{
+    enum { BLOCKS = 16, MOST = 64 };
+    int32_t block = worlds / (workers * BLOCKS);
+    return block < 1 ? 1 : block > MOST ? MOST : block;
+}
+
+static fe_result make_worlds(fe_batch *b, const fe_world *source, const fe__batch_plan *plan)
+{
+    fe__memory *m = &b->memory;
+    b->worlds = fe__allocate(m, (size_t)plan->count * sizeof *b->worlds);
+    b->faults = fe__allocate(m, (size_t)plan->count * sizeof *b->faults);
+    if (!b->worlds || !b->faults) return FE_ERROR_MEMORY;
+    for (; b->count < plan->count; ++b->count) {
+        fe_result result = fe__world_create_as(b->start->held, source, plan->def, b->worlds + b->count);
+        if (result != FE_OK) return result;
+        b->worlds[b->count]->batch = b;
+    }
+    return FE_OK;
+}
+
+static void free_batch(fe_batch *b, int32_t limit)
+{
+    for (int32_t i = 0; i < b->count; ++i) {
+        fe__histories_end(b->worlds[i]);
+        fe__world_destroy(b->worlds[i]);
+    }
+    fe__release(&b->memory, b->bound.arrays, (size_t)b->bound.bytes);
+    fe__release(&b->memory, b->worlds, (size_t)limit * sizeof *b->worlds);
+    fe__release(&b->memory, b->faults, (size_t)limit * sizeof *b->faults);
+    if (b->start) fe__state_destroy(b->start);
+    fe__workers_dismiss(&b->workers);
+    fe__memory memory = b->memory;
+    fe__release(&memory, b, sizeof *b);
+}
+
+fe_result fe__batch_create(const fe_world *source, const fe__batch_plan *plan, fe_batch **out_batch)
+{
+    fe__memory memory;
+    fe__memory_init(&memory, plan->def->allocator);
+    fe_batch *b = fe__allocate(&memory, sizeof *b);
+    if (!b) return FE_ERROR_MEMORY;
+    b->memory = memory;
+    fe_result result = fe__workers_hire(&b->workers, plan->tasks, plan->pool, plan->worker_count);
+    if (result == FE_OK) result = fe__state_create(source, plan->def->allocator, &b->start);
+    if (result == FE_OK) result = make_worlds(b, source, plan);
+    if (result != FE_OK) {
+        free_batch(b, plan->count);
+        return result;
+    }
+    b->block = plan->block ? plan->block : choose_block(plan->count, b->workers.count);
+    fe__registry_add(&batches, &b->entry);
+    *out_batch = b;
+    return FE_OK;
+}
+
+void fe__batch_destroy(fe_batch *b)
+{
+    fe__registry_remove(&batches, &b->entry);
+    free_batch(b, b->count);
+}
+
+// ---- who is inside -------------------------------------------------------------------------------------------------
+static void leave_first(fe_batch *b, const uint8_t *mask, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i)
+        if (!mask || mask[i]) fe__owner_leave(&b->worlds[i]->owner);
+}
+
+int32_t fe__batch_enter(fe_batch *b, const uint8_t *mask, fe__occupation as)
+{
+    for (int32_t i = 0; i < b->count; ++i) {
+        if (mask && !mask[i]) continue;
+        fe__owner *owner = &b->worlds[i]->owner;
+        int32_t is_inside = fe__owner_enter(owner);
+        if (is_inside && fe__owner_be_alone(owner, as)) continue;
+        if (is_inside) fe__owner_leave(owner);
+        leave_first(b, mask, i);
+        return 0;
+    }
+    return 1;
+}
+
+void fe__batch_leave(fe_batch *b, const uint8_t *mask) { leave_first(b, mask, b->count); }
+
+// ---- what is bound -------------------------------------------------------------------------------------------------
+// One block: the arrays, then the items of each
+fe_result fe__batch_bind(fe_batch *b, const fe__batch_array *arrays, int32_t input_count, int32_t output_count)
+{
+    fe__bound made = {NULL, input_count, output_count, 0};
+    int32_t count = input_count + output_count;
+    made.bytes = count * (int64_t)sizeof *arrays;
+    for (int32_t i = 0; i < count; ++i) made.bytes += arrays[i].item_count * (int64_t)sizeof *arrays->items;
+    if (made.bytes) {
+        made.arrays = fe__allocate(&b->memory, (size_t)made.bytes);
+        if (!made.arrays) return FE_ERROR_MEMORY;
+        memcpy(made.arrays, arrays, (size_t)count * sizeof *arrays);
+        fe_handle *items = (fe_handle *)(void *)(made.arrays + count);
+        for (int32_t i = 0; i < count; items += arrays[i].item_count, ++i) {
+            if (arrays[i].items) memcpy(items, arrays[i].items, (size_t)arrays[i].item_count * sizeof *items);
+            made.arrays[i].items = items; // zeros: of the world itself
+        }
+    }
+    fe__release(&b->memory, b->bound.arrays, (size_t)b->bound.bytes);
+    b->bound = made;
+    return FE_OK;
+}

@@ -1,0 +1,213 @@
+// batch_step.c - see batch.h: what is done to many worlds, by whichever worker is free.
+//
+// Called by the API layer, which has entered the worlds. A worker writes its own worlds' faults and rows alone.
+#include "batch/batch.h"
+
+#include "core/fp_state.h"
+#include "step/step.h"
+#include "world/hash.h"
+
+#include <string.h>
+
+// ---- rows ----------------------------------------------------------------------------------------------------------
+static int64_t row_at(const fe__batch_array *a, int32_t world, int32_t item)
+{
+    return ((int64_t)world * a->item_count + item) * a->field->components;
+}
+
+static void get_row(const fe__batch_array *a, int32_t world, int32_t item, double *row)
+{
+    int64_t at = row_at(a, world, item);
+    if (a->is_double) {
+        memcpy(row, a->data + at * (int64_t)sizeof *row, (size_t)a->field->components * sizeof *row);
+        return;
+    }
+    float floats[FE__MOST_COMPONENTS];
+    memcpy(floats, a->data + at * (int64_t)sizeof *floats, (size_t)a->field->components * sizeof *floats);
+    for (int32_t k = 0; k < a->field->components; ++k) row[k] = (double)floats[k];
+}
+
+static void put_row(const fe__batch_array *a, int32_t world, int32_t item, const double *row)
+{
+    int64_t at = row_at(a, world, item);
+    if (a->is_double) {
+        memcpy(a->data + at * (int64_t)sizeof *row, row, (size_t)a->field->components * sizeof *row);
+        return;
+    }
+    float floats[FE__MOST_COMPONENTS];
+    for (int32_t k = 0; k < a->field->components; ++k) floats[k] = (float)row[k];
+    memcpy(a->data + at * (int64_t)sizeof *floats, floats, (size_t)a->field->components * sizeof *floats);
+}
+
+static fe_handle item_of(const fe__batch_array *a, int32_t i) { return a->items ? a->items[i] : 0; }
+
+// 0: the body that it is relative to is gone
+static int32_t frame_of(const fe_world *w, const fe__batch_array *a, fe__field_frame *frame)
+{
+    int32_t body;
+    *frame = (fe__field_frame){a->origin, {0.0f, 0.0f, 0.0f, 1.0f}};
+    if (!a->relative_to) return 1;
+    if (fe__id_pool_find(&w->body_ids, a->relative_to, &body) != FE_OK) return 0;
+    const double *origin = w->bodies[body].origin;
+    frame->origin = (fe_dvec3){origin[0], origin[1], origin[2]};
+    const float *q = w->bodies[body].rotation;
+    frame->rotation = (fe_quat){q[0], q[1], q[2], q[3]};
+    return 1;
+}
+
+static int32_t fail(fe__fault *fault, fe_result result, int32_t array, int32_t item)
+{
+    *fault = (fe__fault){result, array, item};
+    return 0;
+}
+
+// Nothing is written unless all rows may be
+static int32_t check_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int32_t array)
+{
+    const fe_world *w = b->worlds[world];
+    for (int32_t i = 0; i < a->item_count; ++i) {
+        double row[FE__MOST_COMPONENTS];
+        int32_t index;
+        fe_result result = fe__field_find(w, a->field, item_of(a, i), &index);
+        get_row(a, world, i, row);
+        if (result == FE_OK) result = a->field->takes(w, index, row);
+        if (result != FE_OK) return fail(b->faults + world, result, array, i);
+    }
+    return 1;
+}
+
+static int32_t write_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int32_t array)
+{
+    fe_world *w = b->worlds[world];
+    for (int32_t i = 0; i < a->item_count; ++i) {
+        double row[FE__MOST_COMPONENTS];
+        int32_t index;
+        (void)fe__field_find(w, a->field, item_of(a, i), &index);
+        get_row(a, world, i, row);
+        fe_result result = a->field->write(w, index, row);
+        if (result != FE_OK) return fail(b->faults + world, result, array, i);
+    }
+    return 1;
+}
+
+// Rows of what is gone are zeros, and that is a fault, unless there is another
+static void read_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int32_t array)
+{
+    const fe_world *w = b->worlds[world];
+    fe__field_frame frame;
+    int32_t has_frame = frame_of(w, a, &frame);
+    for (int32_t i = 0; i < a->item_count; ++i) {
+        double row[FE__MOST_COMPONENTS] = {0.0};
+        int32_t index, is_there = has_frame && fe__field_find(w, a->field, item_of(a, i), &index) == FE_OK;
+        if (is_there)
+            a->field->read(w, index, &frame, row);
+        else if (b->faults[world].result == FE_OK)
+            fail(b->faults + world, FE_ERROR_STALE, array, i);
+        put_row(a, world, i, row);
+    }
+}
+
+// ---- all worlds ----------------------------------------------------------------------------------------------------
+typedef struct job {
+    fe_batch *batch;
+    const uint8_t *mask;
+    void (*act)(const struct job *job, int32_t world);
+    float dt;
+    int32_t steps;
+    const fe_state *const *states;
+    const fe__batch_array *array;
+    uint32_t *words;
+} job;
+
+static void act_on_range(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const job *j = argument;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i)
+        if (!j->mask || j->mask[i]) j->act(j, i);
+}
+
+static void act_on_all(job *j)
+{
+    fe_batch *b = j->batch;
+    for (int32_t i = 0; i < b->count; ++i) b->faults[i] = (fe__fault){.result = FE_OK};
+    fe__fp_state fp = fe__fp_enter();
+    fe__parallel_for(&b->workers, b->count, b->block, act_on_range, j);
+    fe__fp_leave(fp);
+}
+
+// Inputs hold in all steps: what acts for one step is given again
+static int32_t write_again(fe_batch *b, int32_t world)
+{
+    int32_t whole = 1;
+    for (int32_t i = 0; i < b->bound.input_count && whole; ++i) {
+        const fe__batch_array *a = b->bound.arrays + i;
+        if (a->field->is_of_a_step) whole = write_rows(b, world, a, i);
+    }
+    return whole;
+}
+
+static void step_world(const job *j, int32_t world)
+{
+    enum { IN_A_STEP = -1 };
+    fe_batch *b = j->batch;
+    fe_world *w = b->worlds[world];
+    const fe__bound *bound = &b->bound;
+    int32_t takes = 1;
+    for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = check_rows(b, world, bound->arrays + i, i);
+    for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = write_rows(b, world, bound->arrays + i, i);
+    for (int32_t i = 0; i < j->steps && takes; ++i) {
+        if (i > 0 && !write_again(b, world)) break;
+        fe_result result = fe__world_step(w, j->dt);
+        if (result != FE_OK) takes = fail(b->faults + world, result, IN_A_STEP, 0);
+    }
+    for (int32_t i = 0; i < bound->output_count; ++i) {
+        int32_t array = bound->input_count + i;
+        read_rows(b, world, bound->arrays + array, array);
+    }
+}
+
+void fe__batch_step(fe_batch *b, float dt, int32_t steps, const uint8_t *mask)
+{
+    act_on_all(&(job){.batch = b, .mask = mask, .act = step_world, .dt = dt, .steps = steps});
+}
+
+static void reset_world(const job *j, int32_t world)
+{
+    const fe_state *state = j->states && j->states[world] ? j->states[world] : j->batch->start;
+    fe_result result = fe__held_return(state->held, j->batch->worlds[world]);
+    if (result != FE_OK) fail(j->batch->faults + world, result, 0, 0);
+}
+
+void fe__batch_reset(fe_batch *b, const uint8_t *mask, const fe_state *const *states)
+{
+    act_on_all(&(job){.batch = b, .mask = mask, .act = reset_world, .states = states});
+}
+
+static void write_world(const job *j, int32_t world)
+{
+    if (check_rows(j->batch, world, j->array, 0)) (void)write_rows(j->batch, world, j->array, 0);
+}
+
+void fe__batch_write(fe_batch *b, const fe__batch_array *array, const uint8_t *mask)
+{
+    act_on_all(&(job){.batch = b, .mask = mask, .act = write_world, .array = array});
+}
+
+static void read_world(const job *j, int32_t world) { read_rows(j->batch, world, j->array, 0); }
+
+void fe__batch_read(fe_batch *b, const fe__batch_array *array)
+{
+    act_on_all(&(job){.batch = b, .act = read_world, .array = array});
+}
+
+static void hash_world(const job *j, int32_t world)
+{
+    uint64_t hash = fe__world_hash(j->batch->worlds[world]);
+    j->words[2 * world] = (uint32_t)hash, j->words[2 * world + 1] = (uint32_t)(hash >> 32);
+}
+
+void fe__batch_hash(fe_batch *b, uint32_t *out_words)
+{
+    act_on_all(&(job){.batch = b, .act = hash_world, .words = out_words});
+}
