@@ -19,6 +19,14 @@ static int32_t choose_block(int32_t worlds, int32_t workers)
     return block < 1 ? 1 : block > MOST ? MOST : block;
 }
 
+static fe_result make_rooms(fe_batch *b)
+{
+    b->rooms = fe__allocate(&b->memory, (size_t)b->workers.count * sizeof *b->rooms);
+    for (int32_t i = 0; b->rooms && i < b->workers.count; ++i)
+        fe__memory_init(&b->rooms[i].memory, &b->memory.allocator);
+    return b->rooms ? FE_OK : FE_ERROR_MEMORY;
+}
+
 static fe_result make_worlds(fe_batch *b, const fe_world *source, const fe__batch_plan *plan)
 {
     fe__memory *m = &b->memory;
@@ -39,6 +47,8 @@ static void free_batch(fe_batch *b, int32_t limit)
         fe__histories_end(b->worlds[i]);
         fe__world_destroy(b->worlds[i]);
     }
+    for (int32_t i = 0; b->rooms && i < b->workers.count; ++i) fe__workroom_free(b->rooms + i);
+    fe__release(&b->memory, b->rooms, (size_t)b->workers.count * sizeof *b->rooms);
     fe__release(&b->memory, b->bound.arrays, (size_t)b->bound.bytes);
     fe__release(&b->memory, b->worlds, (size_t)limit * sizeof *b->worlds);
     fe__release(&b->memory, b->faults, (size_t)limit * sizeof *b->faults);
@@ -56,6 +66,7 @@ fe_result fe__batch_create(const fe_world *source, const fe__batch_plan *plan, f
     if (!b) return FE_ERROR_MEMORY;
     b->memory = memory;
     fe_result result = fe__workers_hire(&b->workers, plan->tasks, plan->pool, plan->worker_count);
+    if (result == FE_OK) result = make_rooms(b);
     if (result == FE_OK) result = fe__state_create(source, plan->def->allocator, &b->start);
     if (result == FE_OK) result = make_worlds(b, source, plan);
     if (result != FE_OK) {

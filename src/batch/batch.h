@@ -7,6 +7,7 @@
 #include "batch/field.h"
 #include "core/registry.h"
 #include "state/state.h"
+#include "world/workroom.h"
 
 // A caller's array: (world, item, component), packed
 typedef struct fe__batch_array {
@@ -42,7 +43,8 @@ struct fe_batch {
     fe_world **worlds;
     fe__fault *faults; // of the last call, by world
     int32_t count;
-    int32_t block; // worlds that a worker takes at once
+    int32_t block;       // worlds that a worker takes at once
+    fe__workroom *rooms; // of each worker
     fe__bound bound;
 };
 

@@ -111,7 +111,7 @@ static void read_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int3
 typedef struct job {
     fe_batch *batch;
     const uint8_t *mask;
-    void (*act)(const struct job *job, int32_t world);
+    void (*act)(const struct job *job, int32_t world, int32_t worker);
     float dt;
     int32_t steps;
     const fe_state *const *states;
@@ -122,9 +122,8 @@ typedef struct job {
 static void act_on_range(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const job *j = argument;
-    (void)worker;
     for (int32_t i = first; i < end; ++i)
-        if (!j->mask || j->mask[i]) j->act(j, i);
+        if (!j->mask || j->mask[i]) j->act(j, i, worker);
 }
 
 static void act_on_all(job *j)
@@ -147,20 +146,28 @@ static int32_t write_again(fe_batch *b, int32_t world)
     return whole;
 }
 
-static void step_world(const job *j, int32_t world)
+static void make_steps(const job *j, int32_t world, fe__workroom *room)
 {
     enum { IN_A_STEP = -1 };
+    fe_world *w = j->batch->worlds[world];
+    fe_result result = FE_OK;
+    fe__workroom_lend(room, w);
+    for (int32_t i = 0; i < j->steps && result == FE_OK; ++i) {
+        if (i > 0 && !write_again(j->batch, world)) break;
+        result = fe__world_step(w, j->dt);
+        if (result != FE_OK) fail(j->batch->faults + world, result, IN_A_STEP, 0);
+    }
+    fe__workroom_take_back(room, w);
+}
+
+static void step_world(const job *j, int32_t world, int32_t worker)
+{
     fe_batch *b = j->batch;
-    fe_world *w = b->worlds[world];
     const fe__bound *bound = &b->bound;
     int32_t takes = 1;
     for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = check_rows(b, world, bound->arrays + i, i);
     for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = write_rows(b, world, bound->arrays + i, i);
-    for (int32_t i = 0; i < j->steps && takes; ++i) {
-        if (i > 0 && !write_again(b, world)) break;
-        fe_result result = fe__world_step(w, j->dt);
-        if (result != FE_OK) takes = fail(b->faults + world, result, IN_A_STEP, 0);
-    }
+    if (takes) make_steps(j, world, b->rooms + worker);
     for (int32_t i = 0; i < bound->output_count; ++i) {
         int32_t array = bound->input_count + i;
         read_rows(b, world, bound->arrays + array, array);
@@ -172,8 +179,9 @@ void fe__batch_step(fe_batch *b, float dt, int32_t steps, const uint8_t *mask)
     act_on_all(&(job){.batch = b, .mask = mask, .act = step_world, .dt = dt, .steps = steps});
 }
 
-static void reset_world(const job *j, int32_t world)
+static void reset_world(const job *j, int32_t world, int32_t worker)
 {
+    (void)worker;
     const fe_state *state = j->states && j->states[world] ? j->states[world] : j->batch->start;
     fe_result result = fe__held_return(state->held, j->batch->worlds[world]);
     if (result != FE_OK) fail(j->batch->faults + world, result, 0, 0);
@@ -184,8 +192,9 @@ void fe__batch_reset(fe_batch *b, const uint8_t *mask, const fe_state *const *st
     act_on_all(&(job){.batch = b, .mask = mask, .act = reset_world, .states = states});
 }
 
-static void write_world(const job *j, int32_t world)
+static void write_world(const job *j, int32_t world, int32_t worker)
 {
+    (void)worker;
     if (check_rows(j->batch, world, j->array, 0)) (void)write_rows(j->batch, world, j->array, 0);
 }
 
@@ -194,15 +203,20 @@ void fe__batch_write(fe_batch *b, const fe__batch_array *array, const uint8_t *m
     act_on_all(&(job){.batch = b, .mask = mask, .act = write_world, .array = array});
 }
 
-static void read_world(const job *j, int32_t world) { read_rows(j->batch, world, j->array, 0); }
+static void read_world(const job *j, int32_t world, int32_t worker)
+{
+    (void)worker;
+    read_rows(j->batch, world, j->array, 0);
+}
 
 void fe__batch_read(fe_batch *b, const fe__batch_array *array)
 {
     act_on_all(&(job){.batch = b, .act = read_world, .array = array});
 }
 
-static void hash_world(const job *j, int32_t world)
+static void hash_world(const job *j, int32_t world, int32_t worker)
 {
+    (void)worker;
     uint64_t hash = fe__world_hash(j->batch->worlds[world]);
     j->words[2 * world] = (uint32_t)hash, j->words[2 * world + 1] = (uint32_t)(hash >> 32);
 }

@@ -20,7 +20,7 @@ typedef struct fe__field {
     // thing. NULL: the field is not written
     fe_result (*takes)(const fe_world *world, int32_t item, const double *row);
     fe_result (*write)(fe_world *world, int32_t item, const double *row); // one that may be; FE_ERROR_MEMORY
-    int32_t is_of_a_step; // 1: what is written acts for one step
+    int32_t is_of_a_step;                                                 // 1: what is written acts for one step
 } fe__field;
 
 const fe__field *fe__field_of(int32_t field); // fe_field; NULL: there is none

@@ -205,7 +205,8 @@ static void release_new(returning *r, int32_t count)
             fe__release(&r->world->memory, r->elements[i], (size_t)r->sizes[i]);
 }
 
-// An array whose capacity was another one is made anew: what the world does without memory depends on it
+// An array whose capacity was another one is made anew: what the world does without memory depends on it, and what was
+// reserved is to be there
 static int32_t make_room(returning *r)
 {
     fe_world *w = r->world;
@@ -289,7 +290,7 @@ static void return_members(const returning *r)
 fe_result fe__held_return(const fe__held *held, fe_world *w)
 {
     returning r = {.held = held, .world = w};
-    if (!fe__open_step_scratch(w) || !make_room(&r)) return FE_ERROR_MEMORY;
+    if (!make_room(&r)) return FE_ERROR_MEMORY;
     int32_t with_assets = held->asset_count || w->use_count; // without any nobody else looks at this world
     if (with_assets) fe__store_lock(w->store);
     fe_result result = return_editions(&r);

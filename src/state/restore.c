@@ -12,10 +12,8 @@
 
 int32_t fe__snapshot_prepare(fe__build *b, fe_world *world, fe_world *beside, int32_t number)
 {
-    int32_t is_open = fe__open_step_scratch(world);
     beside->memory = world->memory; // counted on from here, and back when it is dropped
     beside->store = world->store;
-    if (!is_open) return fe__snapshot_fail(b->snapshot, FE_ERROR_MEMORY);
     beside->number = number;
     beside->static_tree.kernels = world->static_tree.kernels;
     beside->moving_tree.kernels = world->moving_tree.kernels;
@@ -53,7 +51,7 @@ void fe__world_follow_state(fe_world *world, int32_t burdened)
     world->solver.unbuilt = world->awake_linked_count;
     fe__graph_forget(&world->solver);
     world->clusters.is_stale = world->joints.forest.changed = 1;
-    atomic_store(&world->scratch->some_deferred, 1);
+    if (world->scratch) atomic_store(&world->scratch->some_deferred, 1);
 }
 
 void fe__snapshot_adopt(fe_world *world, fe_world *beside)

@@ -196,7 +196,7 @@ int32_t fe__thin_crowds(fe__step *step)
 {
     const fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    fe__memory *memory = &step->world->memory;
+    fe__memory *memory = step->world->step_memory;
     s->left_out = 0;
     int32_t is_done = 1;
     if (any_crowd(step)) {

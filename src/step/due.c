@@ -89,7 +89,7 @@ int32_t fe__find_due(fe__step *step)
     atomic_store(&s->apart_count, 0);
     // with heightfields none waits, see collide_stage.c
     if (w->field_pair_count || !atomic_load(&s->some_deferred)) return 1;
-    if (!FE_RESERVE(&w->memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;
+    if (!FE_RESERVE(w->step_memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;
     fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, find_in_block, step);
     return 1;
 }

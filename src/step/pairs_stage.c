@@ -124,7 +124,7 @@ static int32_t reserve_candidates(fe__step *step, int64_t room)
     int32_t workers = step->world->workers.count;
     // the last chunk of each worker may be all but empty
     room += (int64_t)workers * CANDIDATES_IN_CHUNK;
-    if (!FE_RENEW(&step->world->memory, s->candidates, s->candidate_capacity, room)) return 0;
+    if (!FE_RENEW(step->world->step_memory, s->candidates, s->candidate_capacity, room)) return 0;
     for (int32_t i = 0; i < workers; ++i) s->chunks[i].at = s->chunks[i].end = 0;
     atomic_store(&s->chunks_end, 0);
     return 1;
@@ -156,7 +156,7 @@ static int32_t search_all(fe__step *step)
     fe__step_scratch *s = step->scratch;
     const fe_world *w = step->world;
     int32_t is_done =
-        FE_RESERVE(&step->world->memory, s->moved_bits, s->moved_words, w->shape_capacity / WORD_BITS + 1);
+        FE_RESERVE(step->world->step_memory, s->moved_bits, s->moved_words, w->shape_capacity / WORD_BITS + 1);
     if (!is_done) return 0;
     mark_moved(step, 1);
     do {

@@ -210,14 +210,14 @@ static int32_t reserve_rooms(const fe__step *step, const fe__graph_bound *b)
     sorted += w->owed_count + w->joint_count + w->encounter_count;
     int64_t bytes = fe__maxl(2 * sorted * (int64_t)sizeof(fe__sort_item), w->shape_count * (int64_t)sizeof(fe__bounds));
     // at least one, so that an empty stretch has an address too
-    return FE_RENEW(&w->memory, w->solver.rows, w->solver.row_capacity, 1 + bytes / (int64_t)sizeof(fe__row_block));
+    return FE_RENEW(w->step_memory, w->solver.rows, w->solver.row_capacity, 1 + bytes / (int64_t)sizeof(fe__row_block));
 }
 
 static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    fe__memory *memory = &w->memory;
+    fe__memory *memory = w->step_memory, *kept = &w->memory;
     return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            // a body that leaps ends all waiting within the step
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + atomic_load(&s->waiting_count) + 1) &&
@@ -225,11 +225,11 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RESERVE(memory, w->pair_events, w->pair_event_capacity,
+           FE_RESERVE(kept, w->pair_events, w->pair_event_capacity,
                       (int64_t)b->contacts + w->owed_count + w->encounter_count) &&
-           FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
-           FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
-           FE_RESERVE(memory, w->joint_events, w->joint_event_capacity, w->breakable_count);
+           FE_RESERVE(kept, w->body_events, w->body_event_capacity, w->body_count) &&
+           FE_RESERVE(kept, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
+           FE_RESERVE(kept, w->joint_events, w->joint_event_capacity, w->breakable_count);
 }
 
 // Trees that have degenerated are built anew here, where the step may still fail, and last: nothing of a step that
@@ -254,7 +254,8 @@ int32_t fe__reserve_step(fe__step *step)
         !fe__points_reserve(w, step->scratch->points_to_come, bound.special) || !reserve_rooms(step, &bound) ||
         !reserve_scratch(step, &bound))
         return 0;
-    return (bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
-                                  fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count))) &&
+    return (bound.bodies == 0 ||
+            (fe__bound_islands(step, &bound) &&
+             fe__graph_reserve(&w->solver, w->step_memory, w->kernels, &bound, w->workers.count))) &&
            renew_trees(w);
 }

@@ -40,6 +40,7 @@ fe_result fe__world_create(const fe_world_def *def, const fe_world *source, fe_w
     fe_world *world = fe__allocate(&memory, sizeof *world);
     if (!world) return FE_ERROR_MEMORY;
     world->memory = memory;
+    world->step_memory = &world->memory;
     world->kernels = kernels;
     world->simd = kernels->simd;
     world->static_tree.kernels = world->moving_tree.kernels = fe__tree_kernels_of(kernels->simd);
@@ -77,8 +78,8 @@ void fe__world_free_state(fe_world *world)
 
 void fe__world_destroy(fe_world *world)
 {
-    fe__step_scratch_destroy(world);
-    fe__solver_destroy(&world->solver, &world->memory);
+    fe__step_scratch_free(world->scratch, world->step_memory);
+    fe__solver_destroy(&world->solver, world->step_memory);
     fe__world_close_store(world);
     fe__world_free_state(world);
     fe__workers_dismiss(&world->workers);

@@ -3,14 +3,14 @@
 
 int32_t fe__open_step_scratch(fe_world *world)
 {
-    if (!world->scratch) world->scratch = fe__allocate(&world->memory, sizeof *world->scratch);
+    if (world->scratch) return 1;
+    world->scratch = fe__allocate(world->step_memory, sizeof *world->scratch);
+    if (world->scratch) atomic_store(&world->scratch->some_deferred, 1); // who knows what the world was
     return world->scratch != NULL;
 }
 
-void fe__step_scratch_destroy(fe_world *w)
+void fe__step_scratch_free(fe__step_scratch *s, fe__memory *memory)
 {
-    fe__step_scratch *s = w->scratch;
-    fe__memory *memory = &w->memory;
     if (!s) return;
     FE_FREE(memory, s->candidates, s->candidate_capacity);
     FE_FREE(memory, s->moved_bits, s->moved_words);
@@ -24,5 +24,4 @@ void fe__step_scratch_destroy(fe_world *w)
     FE_FREE(memory, s->chases, s->chase_capacity);
     FE_FREE(memory, s->island_timers, s->island_capacity);
     fe__release(memory, s, sizeof *s);
-    w->scratch = NULL;
 }

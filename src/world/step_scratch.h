@@ -95,7 +95,7 @@ static inline fe__sort_item *fe__sort_room(const fe__step *step)
 }
 static inline fe__bounds *fe__box_room(const fe__step *step) { return (fe__bounds *)(void *)step->world->solver.rows; }
 
-int32_t fe__open_step_scratch(fe_world *world); // unless it is there; 0: no memory
-void fe__step_scratch_destroy(fe_world *world);
+int32_t fe__open_step_scratch(fe_world *world);                            // unless it is there; 0: no memory
+void fe__step_scratch_free(fe__step_scratch *scratch, fe__memory *memory); // NULL is fine
 
 #endif

@@ -59,7 +59,7 @@ struct fe_world {
     int32_t body_capacity, odometer_capacity, drift_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
-    fe_store *store; // of the assets that shapes have; its own, of its definition, or of whom it is a clone
+    fe_store *store;         // of the assets that shapes have; its own, of its definition, or of whom it is a clone
     fe__store_member member; // in the store's list
     fe__asset_use *uses;     // by rising asset; under the store's lock
     int32_t use_count, use_capacity;
@@ -148,6 +148,7 @@ struct fe_world {
 
     fe__solver solver;                // graph, rows, body lines
     struct fe__step_scratch *scratch; // of the stages (step_scratch.h)
+    fe__memory *step_memory;          // of both: `memory`, or of the workroom that lends them (workroom.h)
     int64_t step_number;              // of the last step, 0: none yet
     float last_h;                     // substep length that the stored impulses belong to, s, 0: none
     float last_dt;                    // of the last step that moved anything, s: how far ahead boxes look
