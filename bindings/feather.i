@@ -35,6 +35,13 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
+// Many worlds at once: for hosts in C.
+%rename("$ignore", regexmatch$name="^fe_(batch|state)(_(?!type$)[a-z_]+)?$") "";
+%ignore fe_array;
+%ignore fe_array_init;
+%ignore fe_world_clone;
+%ignore fe_world_set_state;
+
 #if !defined(SWIGPYTHON)
 // Recordings: for hosts in C, and in Python.
 %rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_(?!type$)[a-z_]+)?$") "";

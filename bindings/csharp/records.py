@@ -21,8 +21,8 @@ PRIVATE = {"fe_query_filter": "NativeFilter",  # what serves instead is written 
            "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh",
            "fe_save": "NativeSave", "fe_save_options": "NativeSaveOptions",
            "fe_restore_options": "NativeRestoreOptions", "fe_difference": "NativeDifference"}
-FOR_C = {"fe_allocator", "fe_task_system", "fe_recorder_def", "fe_player_def", "fe_player_info", "fe_note",
-         "fe_divergence", "fe_record_flags", "fe_divergence_type"}
+FOR_C = {"fe_allocator", "fe_batch_def", "fe_array", "fe_field", "fe_task_system", "fe_recorder_def", "fe_player_def",
+         "fe_player_info", "fe_note", "fe_divergence", "fe_record_flags", "fe_divergence_type"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong", "char": "byte"}

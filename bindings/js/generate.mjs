@@ -22,6 +22,21 @@ fe_version fe_last_error fe_result_name`.split(/\s+/);
 export const LEFT_OUT = {
     fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
+    fe_world_clone: 'many worlds at once are for hosts in C',
+    fe_state_create: 'many worlds at once are for hosts in C',
+    fe_state_destroy: 'many worlds at once are for hosts in C',
+    fe_world_set_state: 'many worlds at once are for hosts in C',
+    fe_batch_def_init: 'many worlds at once are for hosts in C',
+    fe_batch_create: 'many worlds at once are for hosts in C',
+    fe_batch_destroy: 'many worlds at once are for hosts in C',
+    fe_batch_get_world: 'many worlds at once are for hosts in C',
+    fe_array_init: 'many worlds at once are for hosts in C',
+    fe_batch_bind: 'many worlds at once are for hosts in C',
+    fe_batch_step: 'many worlds at once are for hosts in C',
+    fe_batch_reset: 'many worlds at once are for hosts in C',
+    fe_batch_read: 'many worlds at once are for hosts in C',
+    fe_batch_write: 'many worlds at once are for hosts in C',
+    fe_batch_hash: 'many worlds at once are for hosts in C',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',
 };
 
@@ -109,7 +124,7 @@ for (const m of header.matchAll(/typedef struct (fe_\w+) \{([\s\S]*?)\n\} \1;/g)
 const functions = [];
 for (const m of header.matchAll(/^FE_API ([\w ]+?[ *]+)(fe_\w+)\(([^)]*)\);/gm)) {
     const params = m[3] === 'void' ? [] : m[3].split(',').map((p) => {
-        const [, isConst, type, star, name] = p.trim().replace(/\s+/g, ' ').match(/^(const )?(\w+) ?(\*{0,2}) ?(\w+)$/);
+        const [, isConst, type, star, name] = p.trim().replace(/\s+/g, ' ').replace('*const *', '**').match(/^(const )?(\w+) ?(\*{0,2}) ?(\w+)$/);
         return { const: !!isConst, type, pointer: star.length, name };
     });
     functions.push({ name: m[2], result: m[1].trim(), params, doc: docOf(m.index) });

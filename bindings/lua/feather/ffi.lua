@@ -123,13 +123,19 @@ local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
-    fe_snapshot_compare = true,
+    fe_snapshot_compare = true, fe_world_clone = true, fe_world_set_state = true,
 }
 -- for hosts in C
-local function is_of_recordings(name) return name:find("^fe_recorder") or name:find("^fe_player") or name:find("^fe_div") end
+local FOR_C = { "^fe_recorder", "^fe_player", "^fe_div", "^fe_batch", "^fe_state", "^fe_array" }
+local function is_for_c(name)
+    for _, front in ipairs(FOR_C) do
+        if name:find(front) then return true end
+    end
+    return false
+end
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do
-    if not ABSENT[name] and not is_of_recordings(name) and result ~= "void" then
+    if not ABSENT[name] and not is_for_c(name) and result ~= "void" then
         core[name:sub(4)] = write(env, result, name, parameters)
     end
 end
@@ -140,7 +146,7 @@ local NO_RECORD = {
     fe_mesh_def = true,
 }
 for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
-    if not NO_RECORD[name] and not is_of_recordings(name) then
+    if not NO_RECORD[name] and not is_for_c(name) then
         local kind, init, sized = ffi.typeof(name), C[name .. "_init"], parameters:find("struct_size")
         core[name:sub(4)] = function()
             local made = kind()

@@ -25,7 +25,7 @@ class Function(NamedTuple):
 
 
 def header_functions() -> List[Function]:
-    """What feather.h exports."""
+    """What feather.h exports, but for many worlds at once, which are for hosts in C."""
     text = re.sub(r"//[^\n]*|^\s*#[^\n]*", "", (ROOT / "include/feather.h").read_text(), flags=re.M)
     found = []
     for result, name, arguments in re.findall(r"FE_API\s+([\w\s*]+?)\b(fe_\w+)\(([^;]*)\);", text):
@@ -33,7 +33,8 @@ def header_functions() -> List[Function]:
             Parameter(*re.match(r"\s*(.*?)(\w+)\s*$", part, re.S).groups())  # type: ignore[union-attr]
             for part in arguments.split(",")
         ]
-        found.append(Function(name, result.strip(), parameters))
+        if not re.match(r"fe_(batch|state)_|fe_array_init$|fe_world_(clone|set_state)$", name):
+            found.append(Function(name, result.strip(), parameters))
     return found
 
 
