@@ -12,7 +12,7 @@
 #define DT (1.0f / 60.0f)
 enum { WORLDS = 9, MOST_ITEMS = 32 };
 #if defined(FE_SANITIZED)
-enum { SETS = 1, CASES = 2 }; // of SIMD sets; of scripts that a batch plays
+enum { SETS = 1, CASES = 1 }; // of SIMD sets; of scripts that a batch plays
 #else
 enum { SETS = 5, CASES = 4 };
 #endif
