@@ -1942,7 +1942,7 @@ FE_API int32_t fe_history_get_frames(const fe_history *history, fe_history_frame
 
 /// A world like another one: poses, contacts, impulses, sleep, events, handles, the pair filter. Both go on bit for
 /// bit. It shares the store of the source; a store that was the source's own then lives as long as any of its clones.
-/// Not cloned are recorders and histories.
+/// Not cloned are recorders and histories. User data are the source's, the world's own too.
 /// @param def  as of fe_world_load: of it count workers, pool, allocator, tasks, SIMD set. NULL: the defaults
 /// @return FE_ERROR_ARGUMENT when the definition has another store than the source's
 FE_API fe_result fe_world_clone(const fe_world *source, const fe_world_def *def, fe_world **out_world);
@@ -2017,13 +2017,14 @@ FE_API void fe_array_init(fe_array *array, uint32_t struct_size);
 /// The arrays that each fe_batch_step reads before its first step and fills after its last, while a world is in its
 /// worker's cache. They replace those bound before, and must live until then, or until the batch ends.
 /// @return FE_ERROR_ARGUMENT for a field that is not read or not written, sizes that do not fit, or a written one with
-///         a frame; FE_ERROR_STALE, FE_ERROR_KIND for an item that the first world does not have. Nothing changed then
+///         a frame; FE_ERROR_STALE for an item that no world has; FE_ERROR_KIND; FE_ERROR_BUSY when a world is in a
+///         call. Nothing changed then
 FE_API fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t input_count, const fe_array *outputs,
                                int32_t output_count);
 /// Steps each world as fe_world_step does, bit for bit, whatever the workers, the block and the mask. A world that
-/// fails stands after its last whole step, and the others go on. An input that a world cannot take fails that world:
-/// nothing of its row is taken. So does an item that is gone: its outputs are 0 (FE_ERROR_STALE). fe_last_error names
-/// the first.
+/// fails stands after its last whole step, without the forces of the step that failed, and the others go on. An input
+/// that a world cannot take fails that world: nothing of its row is taken. So does an item that is gone: its outputs
+/// are 0 (FE_ERROR_STALE). fe_last_error names the first.
 /// @param dt           s, as fe_world_step
 /// @param steps        1..1000; the inputs hold in all of them
 /// @param mask         a byte a world, 0: left alone; NULL: all
@@ -2036,7 +2037,7 @@ FE_API int32_t fe_batch_step(fe_batch *batch, float dt, int32_t steps, const uin
 FE_API int32_t fe_batch_reset(fe_batch *batch, const uint8_t *mask, const fe_state *const *states,
                               int32_t *out_results);
 /// Reads a field of every world into an array.
-/// @return as fe_batch_step: worlds that lack an item
+/// @return as fe_batch_step: how many worlds lack an item; FE_ERROR_STALE for one that no world has
 FE_API int32_t fe_batch_read(fe_batch *batch, const fe_array *array, int32_t *out_results);
 /// Writes a field of worlds from an array, for each world all rows or none.
 FE_API int32_t fe_batch_write(fe_batch *batch, const fe_array *array, const uint8_t *mask, int32_t *out_results);

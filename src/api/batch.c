@@ -125,8 +125,10 @@ static void tell_first(const char *function, const fe_batch *b)
     int32_t world = 0;
     while (b->faults[world].result == FE_OK) ++world;
     const fe__fault *f = b->faults + world;
-    if (f->array < 0)
+    if (f->array == FE__IN_A_STEP)
         fe__fail(function, f->result, "world %d failed in a step: %s", (int)world, reason_of(f->result));
+    else if (f->array == FE__IN_A_RESET)
+        fe__fail(function, f->result, "world %d stays as it was: %s", (int)world, reason_of(f->result));
     else
         fe__fail(function, f->result, "world %d, array %d, item %d: %s", (int)world, (int)f->array, (int)f->item,
                  reason_of(f->result));
@@ -144,33 +146,46 @@ static int32_t tell_faults(const char *function, const fe_batch *b, int32_t *out
 }
 
 // ---- arrays --------------------------------------------------------------------------------------------------------
-static fe_result find_items(const char *function, const fe_batch *b, const fe__field *field, const fe_array *given)
+static fe_result check_items(const char *function, const fe__field *field, const fe_array *given)
 {
-    if (!field->kind) {
-        if (given->items || given->item_count != 1)
-            return fe__fail(function, FE_ERROR_ARGUMENT, "the field is the world's: items must be NULL, item_count 1");
-        return FE_OK;
-    }
-    FE_CHECK_ARRAY(given->items, given->item_count);
-    const fe_world *world = b->worlds[0];
-    for (int32_t i = 0; i < given->item_count; ++i) {
-        int32_t index;
-        fe_result result = field->kind == FE_KIND_BODY
-                               ? fe__find_body(function, "items", world, given->items[i], &index)
-                               : fe__find_joint(function, "items", world, given->items[i], &index);
-        if (result != FE_OK) return result;
-    }
+    if (field->kind) FE_CHECK_ARRAY(given->items, given->item_count);
+    if (!field->kind && (given->items || given->item_count != 1))
+        return fe__fail(function, FE_ERROR_ARGUMENT, "the field is the world's: items must be NULL, item_count 1");
     return FE_OK;
 }
 
-static fe_result check_frame(const char *function, const fe_batch *b, const fe_array *given, int32_t is_written)
+static fe_result check_frame(const char *function, const fe_array *given, int32_t is_written)
 {
     FE_CHECK_DVEC3(&given->origin, FE_MAX_POSITION);
-    int32_t has_origin = given->origin.x != 0.0 || given->origin.y != 0.0 || given->origin.z != 0.0, index;
+    int32_t has_origin = given->origin.x != 0.0 || given->origin.y != 0.0 || given->origin.z != 0.0;
     if (is_written && (given->relative_to || has_origin))
         return fe__fail(function, FE_ERROR_ARGUMENT, "what is written has no frame but the world's");
-    if (!given->relative_to) return FE_OK;
-    return fe__find_body(function, "relative_to", b->worlds[0], given->relative_to, &index);
+    return FE_OK;
+}
+
+// An item may be gone in some worlds, which is a fault of theirs; one that none of them has is a mistake of the call's.
+// The worlds of the mask are entered
+static fe_result find_item(const char *function, const char *name, const fe_batch *b, const uint8_t *mask,
+                           fe_handle item, int32_t kind)
+{
+    int32_t index, first = -1;
+    for (int32_t i = 0; i < b->count; ++i) {
+        if (mask && !mask[i]) continue;
+        const fe__id_pool *ids = kind == FE_KIND_BODY ? &b->worlds[i]->body_ids : &b->worlds[i]->joint_ids;
+        if (fe__id_pool_find(ids, item, &index) == FE_OK) return FE_OK;
+        if (first < 0) first = i;
+    }
+    if (first < 0) return FE_OK; // no world is asked
+    return kind == FE_KIND_BODY ? fe__find_body(function, name, b->worlds[first], item, &index)
+                                : fe__find_joint(function, name, b->worlds[first], item, &index);
+}
+
+static fe_result find_items(const char *function, const fe_batch *b, const uint8_t *mask, const fe__batch_array *array)
+{
+    for (int32_t i = 0; array->field->kind && i < array->item_count; ++i)
+        FE_TRY(find_item(function, "items", b, mask, array->items[i], array->field->kind));
+    if (!array->relative_to) return FE_OK;
+    return find_item(function, "relative_to", b, mask, array->relative_to, FE_KIND_BODY);
 }
 
 static fe_result read_array(const char *function, const fe_batch *b, const fe_array *array, int32_t is_written,
@@ -185,8 +200,8 @@ static fe_result read_array(const char *function, const fe_batch *b, const fe_ar
     if (is_written ? !field->write : !field->read)
         return fe__fail(function, FE_ERROR_ARGUMENT, "field %d is not %s", (int)full.field,
                         is_written ? "written" : "read");
-    FE_TRY(find_items(function, b, field, &full));
-    FE_TRY(check_frame(function, b, &full, is_written));
+    FE_TRY(check_items(function, field, &full));
+    FE_TRY(check_frame(function, &full, is_written));
     FE_CHECK_POINTER(full.data);
     int64_t number = full.is_double ? (int64_t)sizeof(double) : (int64_t)sizeof(float);
     int64_t bytes = number * field->components * full.item_count * b->count;
@@ -213,6 +228,15 @@ static fe_result read_arrays(const char *function, const fe_batch *b, const fe_a
     return FE_OK;
 }
 
+static fe_result find_items_of_all(const char *function, fe_batch *b, const fe__batch_array *arrays, int32_t count)
+{
+    fe_result result = FE_OK;
+    if (!fe__batch_enter(b, NULL, FE__WRITER)) return refuse_worlds(function);
+    for (int32_t i = 0; i < count && result == FE_OK; ++i) result = find_items(function, b, NULL, arrays + i);
+    fe__batch_leave(b, NULL);
+    return result;
+}
+
 fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t input_count, const fe_array *outputs,
                         int32_t output_count)
 {
@@ -227,6 +251,7 @@ fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t input_c
     if (size && !arrays) return fe__report(function, FE_ERROR_MEMORY);
     fe_result result = read_arrays(function, batch, inputs, input_count, 1, arrays);
     if (result == FE_OK) result = read_arrays(function, batch, outputs, output_count, 0, arrays + input_count);
+    if (result == FE_OK) result = find_items_of_all(function, batch, arrays, count);
     if (result == FE_OK) result = fe__report(function, fe__batch_bind(batch, arrays, input_count, output_count));
     fe__release(&batch->memory, arrays, size);
     return result;
@@ -273,9 +298,10 @@ int32_t fe_batch_read(fe_batch *batch, const fe_array *array, int32_t *out_resul
     fe__batch_array read;
     FE_TRY(read_array(function, batch, array, 0, &read));
     if (!fe__batch_enter(batch, NULL, FE__WRITER)) return refuse_worlds(function);
-    fe__batch_read(batch, &read);
+    fe_result result = find_items(function, batch, NULL, &read);
+    if (result == FE_OK) fe__batch_read(batch, &read);
     fe__batch_leave(batch, NULL);
-    return tell_faults(function, batch, out_results);
+    return result == FE_OK ? tell_faults(function, batch, out_results) : (int32_t)result;
 }
 
 int32_t fe_batch_write(fe_batch *batch, const fe_array *array, const uint8_t *mask, int32_t *out_results)
@@ -284,9 +310,10 @@ int32_t fe_batch_write(fe_batch *batch, const fe_array *array, const uint8_t *ma
     fe__batch_array written;
     FE_TRY(read_array(function, batch, array, 1, &written));
     if (!fe__batch_enter(batch, mask, FE__WRITER)) return refuse_worlds(function);
-    fe__batch_write(batch, &written, mask);
+    fe_result result = find_items(function, batch, mask, &written);
+    if (result == FE_OK) fe__batch_write(batch, &written, mask);
     fe__batch_leave(batch, mask);
-    return tell_faults(function, batch, out_results);
+    return result == FE_OK ? tell_faults(function, batch, out_results) : (int32_t)result;
 }
 
 fe_result fe_batch_hash(fe_batch *batch, uint32_t *out_words)

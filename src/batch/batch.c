@@ -41,6 +41,17 @@ static fe_result make_worlds(fe_batch *b, const fe_world *source, const fe__batc
     return FE_OK;
 }
 
+static size_t bytes_kept(const fe_batch *b, const fe__bound *bound)
+{
+    return (size_t)b->workers.count * (size_t)bound->kept_of_worker * sizeof *bound->kept;
+}
+
+static void free_bound(fe_batch *b, fe__bound *bound)
+{
+    fe__release(&b->memory, bound->kept, bytes_kept(b, bound));
+    fe__release(&b->memory, bound->arrays, (size_t)bound->bytes);
+}
+
 static void free_batch(fe_batch *b, int32_t limit)
 {
     for (int32_t i = 0; i < b->count; ++i) {
@@ -49,7 +60,7 @@ static void free_batch(fe_batch *b, int32_t limit)
     }
     for (int32_t i = 0; b->rooms && i < b->workers.count; ++i) fe__workroom_free(b->rooms + i);
     fe__release(&b->memory, b->rooms, (size_t)b->workers.count * sizeof *b->rooms);
-    fe__release(&b->memory, b->bound.arrays, (size_t)b->bound.bytes);
+    free_bound(b, &b->bound);
     fe__release(&b->memory, b->worlds, (size_t)limit * sizeof *b->worlds);
     fe__release(&b->memory, b->faults, (size_t)limit * sizeof *b->faults);
     if (b->start) fe__state_destroy(b->start);
@@ -110,23 +121,33 @@ void fe__batch_leave(fe_batch *b, const uint8_t *mask) { leave_first(b, mask, b-
 
 // ---- what is bound -------------------------------------------------------------------------------------------------
 // One block: the arrays, then the items of each
+static void copy_arrays(fe__bound *bound, const fe__batch_array *arrays, int32_t count)
+{
+    memcpy(bound->arrays, arrays, (size_t)count * sizeof *arrays);
+    fe_handle *items = (fe_handle *)(void *)(bound->arrays + count);
+    for (int32_t i = 0; i < count; items += arrays[i].item_count, ++i) {
+        if (arrays[i].items) memcpy(items, arrays[i].items, (size_t)arrays[i].item_count * sizeof *items);
+        bound->arrays[i].items = items; // zeros: of the world itself
+    }
+}
+
 fe_result fe__batch_bind(fe_batch *b, const fe__batch_array *arrays, int32_t input_count, int32_t output_count)
 {
-    fe__bound made = {NULL, input_count, output_count, 0};
+    fe__bound made = {.input_count = input_count, .output_count = output_count};
     int32_t count = input_count + output_count;
     made.bytes = count * (int64_t)sizeof *arrays;
     for (int32_t i = 0; i < count; ++i) made.bytes += arrays[i].item_count * (int64_t)sizeof *arrays->items;
-    if (made.bytes) {
-        made.arrays = fe__allocate(&b->memory, (size_t)made.bytes);
-        if (!made.arrays) return FE_ERROR_MEMORY;
-        memcpy(made.arrays, arrays, (size_t)count * sizeof *arrays);
-        fe_handle *items = (fe_handle *)(void *)(made.arrays + count);
-        for (int32_t i = 0; i < count; items += arrays[i].item_count, ++i) {
-            if (arrays[i].items) memcpy(items, arrays[i].items, (size_t)arrays[i].item_count * sizeof *items);
-            made.arrays[i].items = items; // zeros: of the world itself
-        }
+    for (int32_t i = 0; i < input_count; ++i)
+        if (arrays[i].field->is_of_a_step)
+            made.kept_of_worker += arrays[i].item_count * fe__field_pushed(arrays[i].field);
+    if (made.bytes) made.arrays = fe__allocate(&b->memory, (size_t)made.bytes);
+    if (made.kept_of_worker) made.kept = fe__allocate(&b->memory, bytes_kept(b, &made));
+    if ((made.bytes && !made.arrays) || (made.kept_of_worker && !made.kept)) {
+        free_bound(b, &made);
+        return FE_ERROR_MEMORY;
     }
-    fe__release(&b->memory, b->bound.arrays, (size_t)b->bound.bytes);
+    if (made.bytes) copy_arrays(&made, arrays, count);
+    free_bound(b, &b->bound);
     b->bound = made;
     return FE_OK;
 }

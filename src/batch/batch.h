@@ -25,12 +25,16 @@ typedef struct fe__bound {
     fe__batch_array *arrays; // with a copy of their items behind them
     int32_t input_count, output_count;
     int64_t bytes;
+    fe__kept_force *kept; // of each worker: what was on the bodies that the inputs of a step push
+    int64_t kept_of_worker;
 } fe__bound;
+
+enum { FE__IN_A_STEP = -1, FE__IN_A_RESET = -2 }; // where a world failed, when not in an array
 
 // What became of a world
 typedef struct fe__fault {
     int32_t result; // FE_OK: nothing
-    int32_t array;  // among the inputs, then the outputs; -1: it failed in a step
+    int32_t array;  // among the inputs, then the outputs; or FE__IN_A_STEP, FE__IN_A_RESET
     int32_t item;
 } fe__fault;
 

@@ -76,7 +76,19 @@ static int32_t check_rows(fe_batch *b, int32_t world, const fe__batch_array *a, 
     return 1;
 }
 
-static int32_t write_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int32_t array)
+// What was on bodies before they were pushed, in this order
+typedef struct kept_forces {
+    fe__kept_force *first;
+    int64_t count;
+} kept_forces;
+
+static void put_back(fe_world *w, const kept_forces *kept)
+{
+    for (int64_t i = kept->count - 1; i >= 0; --i) fe__field_put_back(w, kept->first + i);
+}
+
+// Rows that may be written. kept: NULL: a force stays
+static int32_t write_rows(fe_batch *b, int32_t world, const fe__batch_array *a, int32_t array, kept_forces *kept)
 {
     fe_world *w = b->worlds[world];
     for (int32_t i = 0; i < a->item_count; ++i) {
@@ -84,6 +96,8 @@ static int32_t write_rows(fe_batch *b, int32_t world, const fe__batch_array *a, 
         int32_t index;
         (void)fe__field_find(w, a->field, item_of(a, i), &index);
         get_row(a, world, i, row);
+        if (kept && a->field->is_of_a_step)
+            kept->count += fe__field_keep_forces(w, a->field, index, kept->first + kept->count);
         fe_result result = a->field->write(w, index, row);
         if (result != FE_OK) return fail(b->faults + world, result, array, i);
     }
@@ -135,39 +149,42 @@ static void act_on_all(job *j)
     fe__fp_leave(fp);
 }
 
-// Inputs hold in all steps: what acts for one step is given again
-static int32_t write_again(fe_batch *b, int32_t world)
+// Inputs hold in all steps. In each but the first: what acts for one step alone. 0: the world cannot take them, or no
+// longer, as a joint may break in a step
+static int32_t write_inputs(fe_batch *b, int32_t world, int32_t is_first, kept_forces *kept)
 {
-    int32_t whole = 1;
-    for (int32_t i = 0; i < b->bound.input_count && whole; ++i) {
-        const fe__batch_array *a = b->bound.arrays + i;
-        if (a->field->is_of_a_step) whole = write_rows(b, world, a, i);
-    }
-    return whole;
+    const fe__bound *bound = &b->bound;
+    int32_t takes = 1;
+    kept->count = 0;
+    for (int32_t i = 0; i < bound->input_count && takes; ++i)
+        if (is_first || bound->arrays[i].field->is_of_a_step) takes = check_rows(b, world, bound->arrays + i, i);
+    for (int32_t i = 0; i < bound->input_count && takes; ++i)
+        if (is_first || bound->arrays[i].field->is_of_a_step) takes = write_rows(b, world, bound->arrays + i, i, kept);
+    return takes;
 }
 
-static void make_steps(const job *j, int32_t world, fe__workroom *room)
+// To the first that fails, which leaves none of its forces: the next call would add them again
+static void make_steps(const job *j, int32_t world, int32_t worker)
 {
-    enum { IN_A_STEP = -1 };
-    fe_world *w = j->batch->worlds[world];
-    fe_result result = FE_OK;
-    fe__workroom_lend(room, w);
-    for (int32_t i = 0; i < j->steps && result == FE_OK; ++i) {
-        if (i > 0 && !write_again(j->batch, world)) break;
-        result = fe__world_step(w, j->dt);
-        if (result != FE_OK) fail(j->batch->faults + world, result, IN_A_STEP, 0);
+    fe_batch *b = j->batch;
+    fe_world *w = b->worlds[world];
+    kept_forces kept = {b->bound.kept + worker * b->bound.kept_of_worker, 0};
+    int32_t whole = 1;
+    for (int32_t i = 0; i < j->steps && whole; ++i) {
+        whole = write_inputs(b, world, i == 0, &kept);
+        fe_result result = whole ? fe__world_step(w, j->dt) : FE_OK;
+        if (result != FE_OK) whole = fail(b->faults + world, result, FE__IN_A_STEP, 0);
+        if (!whole) put_back(w, &kept);
     }
-    fe__workroom_take_back(room, w);
 }
 
 static void step_world(const job *j, int32_t world, int32_t worker)
 {
     fe_batch *b = j->batch;
     const fe__bound *bound = &b->bound;
-    int32_t takes = 1;
-    for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = check_rows(b, world, bound->arrays + i, i);
-    for (int32_t i = 0; i < bound->input_count && takes; ++i) takes = write_rows(b, world, bound->arrays + i, i);
-    if (takes) make_steps(j, world, b->rooms + worker);
+    fe__workroom_lend(b->rooms + worker, b->worlds[world]);
+    make_steps(j, world, worker);
+    fe__workroom_take_back(b->rooms + worker, b->worlds[world]);
     for (int32_t i = 0; i < bound->output_count; ++i) {
         int32_t array = bound->input_count + i;
         read_rows(b, world, bound->arrays + array, array);
@@ -184,7 +201,7 @@ static void reset_world(const job *j, int32_t world, int32_t worker)
     (void)worker;
     const fe_state *state = j->states && j->states[world] ? j->states[world] : j->batch->start;
     fe_result result = fe__held_return(state->held, j->batch->worlds[world]);
-    if (result != FE_OK) fail(j->batch->faults + world, result, 0, 0);
+    if (result != FE_OK) fail(j->batch->faults + world, result, FE__IN_A_RESET, 0);
 }
 
 void fe__batch_reset(fe_batch *b, const uint8_t *mask, const fe_state *const *states)
@@ -195,7 +212,7 @@ void fe__batch_reset(fe_batch *b, const uint8_t *mask, const fe_state *const *st
 static void write_world(const job *j, int32_t world, int32_t worker)
 {
     (void)worker;
-    if (check_rows(j->batch, world, j->array, 0)) (void)write_rows(j->batch, world, j->array, 0);
+    if (check_rows(j->batch, world, j->array, 0)) (void)write_rows(j->batch, world, j->array, 0, NULL);
 }
 
 void fe__batch_write(fe_batch *b, const fe__batch_array *array, const uint8_t *mask)

@@ -12,6 +12,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 fe_result fe__field_find(const fe_world *world, const fe__field *field, fe_handle item, int32_t *out_index)
 {
@@ -187,6 +188,26 @@ static fe_result write_force_of_joint(fe_world *w, int32_t joint, const double *
     pull = fe__neg(pull);
     push(w, r->body[0], point, is_linear ? pull : none, is_linear ? none : pull);
     return FE_OK;
+}
+
+int32_t fe__field_pushed(const fe__field *field) { return field->kind == FE_KIND_JOINT ? 2 : 1; }
+
+int32_t fe__field_keep_forces(const fe_world *w, const fe__field *field, int32_t index, fe__kept_force *out)
+{
+    const int32_t *bodies = field->kind == FE_KIND_JOINT ? w->joint_records[index].body : &index;
+    int32_t count = fe__field_pushed(field);
+    for (int32_t i = 0; i < count; ++i) {
+        out[i].body = bodies[i];
+        memcpy(out[i].force, w->bodies[bodies[i]].force, sizeof out[i].force);
+        memcpy(out[i].torque, w->bodies[bodies[i]].torque, sizeof out[i].torque);
+    }
+    return count;
+}
+
+void fe__field_put_back(fe_world *w, const fe__kept_force *kept)
+{
+    memcpy(w->bodies[kept->body].force, kept->force, sizeof kept->force);
+    memcpy(w->bodies[kept->body].torque, kept->torque, sizeof kept->torque);
 }
 
 typedef float *(*drive_of)(fe__joint_any *def, int32_t type, int32_t dof);

@@ -27,4 +27,15 @@ const fe__field *fe__field_of(int32_t field); // fe_field; NULL: there is none
 // The record that a handle names, and of what kind it must be. FE_ERROR_STALE, FE_ERROR_KIND
 fe_result fe__field_find(const fe_world *world, const fe__field *field, fe_handle item, int32_t *out_index);
 
+// A force acts for one step. One that fails leaves it on the body, so what was there before is kept.
+typedef struct fe__kept_force {
+    int32_t body;
+    float force[3], torque[3];
+} fe__kept_force;
+
+int32_t fe__field_pushed(const fe__field *field); // bodies that a row of a field of a step pushes, at most
+// Of the bodies that the row of an item pushes. Returns how many
+int32_t fe__field_keep_forces(const fe_world *world, const fe__field *field, int32_t index, fe__kept_force *out);
+void fe__field_put_back(fe_world *world, const fe__kept_force *kept);
+
 #endif

@@ -592,6 +592,69 @@ static void a_row_of_what_is_gone_is_zero(void **state)
     destroy(world);
 }
 
+// An item that is gone from any one world, the first too, is a fault of that world's
+static void no_world_speaks_for_the_others(void **state)
+{
+    (void)state;
+    fe_body ball;
+    fe_world *world = ball_world(&ball);
+    for (int32_t gone = 0; gone < 3; ++gone) {
+        fe_batch *batch = make_batch(world, 3, 1, 0, FE_SIMD_AUTO);
+        static float poses[3][7];
+        int32_t results[3];
+        fe_array pose = array_of(&ball, 1, FE_FIELD_TRANSFORM, 7, poses), seen = pose;
+        pose.bytes = seen.bytes = sizeof poses, seen.relative_to = ball;
+        FE_TRUE(fe_batch_read(batch, &pose, NULL) == 0);
+        OK(fe_body_destroy(world_of(batch, gone), ball));
+        FE_TRUE(fe_batch_read(batch, &seen, results) == 1 && results[gone] == FE_ERROR_STALE);
+        for (int32_t w = 0; w < 3; ++w) poses[w][1] = 5.0f, poses[w][6] = 1.0f;
+        FE_TRUE(fe_batch_write(batch, &pose, NULL, results) == 1 && results[gone] == FE_ERROR_STALE);
+        FE_TRUE(fe_batch_read(batch, &pose, results) == 1 && results[gone] == FE_ERROR_STALE);
+        for (int32_t w = 0; w < 3; ++w) FE_TRUE(poses[w][1] == (w == gone ? 0.0f : 5.0f));
+        OK(fe_batch_bind(batch, &pose, 1, &seen, 1));
+        FE_TRUE(fe_batch_step(batch, DT, 1, NULL, results) == 1 && results[gone] == FE_ERROR_STALE);
+        for (int32_t w = 0; w < 3; ++w)
+            if (w != gone) OK(fe_body_destroy(world_of(batch, w), ball));
+        FE_TRUE(fe_batch_read(batch, &pose, NULL) == FE_ERROR_STALE &&
+                fe_batch_write(batch, &pose, NULL, NULL) == FE_ERROR_STALE &&
+                fe_batch_read(batch, &seen, NULL) == FE_ERROR_STALE &&
+                fe_batch_bind(batch, &pose, 1, NULL, 0) == FE_ERROR_STALE);
+        OK(fe_batch_destroy(batch));
+    }
+    destroy(world);
+}
+
+// A joint that breaks in one of many steps takes no force in the next: its world stands there
+static void a_joint_that_breaks_ends_its_force(void **state)
+{
+    (void)state;
+    arm a = make_arm(0.0f);
+    fe_joint joint = a.joints[0];
+    fe_hinge_joint_def def;
+    fe_hinge_joint_def_init(&def, sizeof def);
+    OK(fe_hinge_joint_get(a.world, joint, &def));
+    def.break_force = 50.0f; // N: the links swing, and pull at it
+    OK(fe_hinge_joint_set(a.world, joint, &def));
+    fe_batch *batch = make_batch(a.world, 2, 1, 0, FE_SIMD_AUTO), *one = make_batch(a.world, 1, 1, 0, FE_SIMD_AUTO);
+    static float torques[2] = {20.0f, 0.0f};
+    int32_t results[2], steps = 0;
+    fe_array input = array_of(&joint, 1, FE_FIELD_JOINT_FORCE, 1, torques);
+    input.bytes = sizeof torques;
+    OK(fe_batch_bind(batch, &input, 1, NULL, 0));
+    FE_TRUE(fe_batch_step(batch, DT, 100, NULL, results) == 1);
+    FE_TRUE(results[0] == FE_ERROR_STALE && results[1] == FE_OK);
+    FE_TRUE(strstr(fe_last_error(), "world 0, array 0, item 0: an item that is gone") != NULL);
+    // the same, one step a call
+    input.bytes = sizeof *torques;
+    OK(fe_batch_bind(one, &input, 1, NULL, 0));
+    for (; steps < 100 && fe_joint_is_valid(world_of(one, 0), joint); ++steps)
+        FE_TRUE(fe_batch_step(one, DT, 1, NULL, NULL) == 0);
+    FE_TRUE(steps > 1 && steps < 100 && hash_of(world_of(one, 0)) == hash_of(world_of(batch, 0)));
+    OK(fe_batch_destroy(one));
+    OK(fe_batch_destroy(batch));
+    destroy(a.world);
+}
+
 static void sets_states_of_single_worlds(void **state)
 {
     (void)state;
@@ -666,6 +729,85 @@ static void allocations_fail_one_by_one(void **state)
     destroy(world);
 }
 
+// A step that fails takes its force back: the next call gives it again, and it counts once
+static void a_force_counts_once(void **state)
+{
+    (void)state;
+    enum { STEPS = 6 };
+    static float forces[2][6] = {{3.0f, 200.0f, 0.0f, 0.0f, 5.0f, 0.0f}, {3.0f, 200.0f, 0.0f, 0.0f, 5.0f, 0.0f}};
+    const fe_vec3 force = {3.0f, 200.0f, 0.0f}, torque = {0.0f, 5.0f, 0.0f}, own = {0.0f, 0.0f, 7.0f};
+    fe_body ball;
+    fe_world *world = ball_world(&ball), *alone;
+    OK(fe_body_add_force(world, ball, &own)); // the caller's, from before: it stays, for one step
+    uint64_t hash[STEPS + 1];
+    OK(fe_world_clone(world, NULL, &alone));
+    for (int32_t i = 0; i <= STEPS; ++i, step(alone)) {
+        hash[i] = hash_of(alone);
+        OK(fe_body_add_force(alone, ball, &force));
+        OK(fe_body_add_torque(alone, ball, &torque));
+    }
+    destroy(alone);
+    int64_t failures = 1;
+    int32_t failed_steps = 0;
+    for (int64_t k = 1; failures > 0; ++k) {
+        counting c = {0};
+        fe_allocator allocator = counting_allocator(&c);
+        fe_batch_def def;
+        fe_batch *batch = NULL;
+        fe_batch_def_init(&def, sizeof def);
+        def.world_count = 2, def.allocator = &allocator;
+        OK(fe_batch_create(world, &def, &batch));
+        fe_array input = array_of(&ball, 1, FE_FIELD_FORCE, 6, forces);
+        input.bytes = sizeof forces;
+        OK(fe_batch_bind(batch, &input, 1, NULL, 0));
+        c.fail_from = c.calls + k, c.fail_count = 1;
+        int32_t results[2], made[2] = {0};
+        for (int32_t i = 0; i < STEPS; ++i) {
+            failed_steps += fe_batch_step(batch, DT, 1, NULL, results);
+            for (int32_t w = 0; w < 2; ++w) {
+                made[w] += results[w] == FE_OK;
+                FE_TRUE(hash_of(world_of(batch, w)) == hash[made[w]]);
+            }
+        }
+        failures = c.failures;
+        OK(fe_batch_destroy(batch));
+        FE_TRUE(c.blocks == 0 && c.wrong == 0);
+    }
+    FE_TRUE(failed_steps > 0);
+    destroy(world);
+}
+
+// A reset without memory says that, and not that an array was at fault
+static void a_reset_that_fails_is_told(void **state)
+{
+    (void)state;
+    fe_body ball;
+    fe_world *world = ball_world(&ball);
+    counting c = {0};
+    fe_allocator allocator = counting_allocator(&c);
+    fe_batch_def def;
+    fe_batch *batch = NULL;
+    fe_state *crowded;
+    fe_geometry form;
+    fe_geometry_sphere(&form, 0.5f);
+    fe_batch_def_init(&def, sizeof def);
+    def.world_count = 3, def.allocator = &allocator;
+    OK(fe_batch_create(world, &def, &batch));
+    for (int32_t i = 0; i < 200; ++i) add(world, FE_BODY_DYNAMIC, 4.0 + i, &form);
+    OK(fe_state_create(world, NULL, &crowded));
+    const fe_state *states[3] = {NULL, crowded, NULL};
+    int32_t results[3];
+    c.fail_from = c.calls + 1, c.fail_count = 1;
+    FE_TRUE(fe_batch_reset(batch, NULL, states, results) == 1);
+    FE_TRUE(results[0] == FE_OK && results[1] == FE_ERROR_MEMORY && results[2] == FE_OK);
+    FE_TRUE(strstr(fe_last_error(), "world 1 stays as it was: no memory") != NULL);
+    FE_TRUE(hash_of(world_of(batch, 1)) == hash_of(world_of(batch, 0)));
+    FE_TRUE(fe_batch_reset(batch, NULL, states, NULL) == 0 && hash_of(world_of(batch, 1)) == hash_of(world));
+    OK(fe_state_destroy(crowded));
+    OK(fe_batch_destroy(batch));
+    destroy(world);
+}
+
 static void memory_is_level(void **state)
 {
     (void)state;
@@ -714,7 +856,11 @@ static void clones_and_states_are_checked(void **state)
     FE_TRUE(fe_world_clone(world, &def, &clone) == FE_ERROR_ARGUMENT && clone == NULL);
     OK(fe_world_get_store(world, &store));
     def.store = store;
+    uint64_t data = 0;
+    OK(fe_world_set_user_data(world, 77));
     OK(fe_world_clone(world, &def, &clone));
+    OK(fe_world_get_user_data(clone, &data));
+    FE_TRUE(data == 77);
     FE_TRUE(fe_store_destroy(store) == FE_ERROR_STATE);
     FE_TRUE(fe_state_create(NULL, NULL, &taken) == FE_ERROR_ARGUMENT &&
             fe_state_create(world, NULL, NULL) == FE_ERROR_ARGUMENT);
@@ -832,8 +978,12 @@ int main(void)
         cmocka_unit_test(what_is_written_is_read),
         cmocka_unit_test(a_bad_row_fails_its_world),
         cmocka_unit_test(a_row_of_what_is_gone_is_zero),
+        cmocka_unit_test(no_world_speaks_for_the_others),
+        cmocka_unit_test(a_joint_that_breaks_ends_its_force),
         cmocka_unit_test(sets_states_of_single_worlds),
         cmocka_unit_test(allocations_fail_one_by_one),
+        cmocka_unit_test(a_force_counts_once),
+        cmocka_unit_test(a_reset_that_fails_is_told),
         cmocka_unit_test(memory_is_level),
         cmocka_unit_test(clones_and_states_are_checked),
         cmocka_unit_test(batches_are_checked),
