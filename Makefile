@@ -253,14 +253,17 @@ fuzz:
 
 BENCH_PEERS := $(if $(filter bench bench-build %/feather-bench,$(MAKECMDGOALS)),$(foreach peer,bullet ode box2d,\
     $(shell $(PKG_CONFIG) --exists $(peer) 2>/dev/null && echo $(peer))))
+# It has no .pc file
+BENCH_PEERS += $(if $(filter bench bench-build %/feather-bench,$(MAKECMDGOALS)),$(if $(wildcard /usr/include/mujoco/mujoco.h),mujoco))
 BENCH_PEERS := $(strip $(BENCH_PEERS))
+BENCH_PACKAGES := $(filter-out mujoco,$(BENCH_PEERS))
 BENCH_SOURCES := $(sort $(wildcard bench/*.c bench/*/*.c)) $(if $(BENCH_PEERS),$(sort $(wildcard bench/peers/*.cpp)))
 BENCH_OBJECTS := $(addprefix $(BUILD)/,$(addsuffix .o,$(basename $(BENCH_SOURCES))))
 # The peers' headers as system headers: their warnings are theirs.
 PEER_CFLAGS := $(if $(filter bullet,$(BENCH_PEERS)),-DFE_BENCH_BULLET=1) $(if $(filter ode,$(BENCH_PEERS)),-DFE_BENCH_ODE=1) \
-    $(if $(filter box2d,$(BENCH_PEERS)),-DFE_BENCH_BOX2D=1) \
-    $(if $(BENCH_PEERS),$(patsubst -I%,-isystem%,$(filter-out -I/usr/include,$(shell $(PKG_CONFIG) --cflags $(BENCH_PEERS)))))
-PEER_LIBS := $(if $(BENCH_PEERS),$(shell $(PKG_CONFIG) --libs $(BENCH_PEERS)))
+    $(if $(filter box2d,$(BENCH_PEERS)),-DFE_BENCH_BOX2D=1) $(if $(filter mujoco,$(BENCH_PEERS)),-DFE_BENCH_MUJOCO=1) \
+    $(if $(BENCH_PACKAGES),$(patsubst -I%,-isystem%,$(filter-out -I/usr/include,$(shell $(PKG_CONFIG) --cflags $(BENCH_PACKAGES)))))
+PEER_LIBS := $(if $(BENCH_PACKAGES),$(shell $(PKG_CONFIG) --libs $(BENCH_PACKAGES))) $(if $(filter mujoco,$(BENCH_PEERS)),-lmujoco)
 
 $(BUILD)/bench-peers: FORCE
 	$(call stamp,$(PEER_CFLAGS))
@@ -274,7 +277,7 @@ $(BUILD)/feather-bench: $(BENCH_OBJECTS) $(STATIC)
 	$(RUN)$(if $(BENCH_PEERS),$(CXX),$(CC)) $(BENCH_OBJECTS) $(STATIC) $(LINK_FLAGS) $(PEER_LIBS) -lm -o $@
 
 bench-build: $(BUILD)/feather-bench
-	@for peer in bullet ode box2d; do case ' $(BENCH_PEERS) ' in *" $$peer "*) ;; *) \
+	@for peer in bullet ode box2d mujoco; do case ' $(BENCH_PEERS) ' in *" $$peer "*) ;; *) \
 	    echo "*** BENCH WITHOUT $$peer: it is not installed (make deps), so there is nothing to compare with ***" ;; esac; done
 bench: bench-build
 	$(BUILD)/feather-bench scenes --variants 32

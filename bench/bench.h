@@ -9,6 +9,7 @@ int bench_command_queries(int argc, char **argv);
 int bench_command_draw(int argc, char **argv);
 int bench_command_state(int argc, char **argv);
 int bench_command_history(int argc, char **argv);
+int bench_command_many(int argc, char **argv);
 int bench_command_record(int argc, char **argv);
 int bench_command_replay(int argc, char **argv);
 int bench_command_play(int argc, char **argv);

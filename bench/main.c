@@ -20,6 +20,7 @@ static const command commands[] = {
     {"draw", bench_command_draw, "time of the calls that draw: draw [BODIES]"},
     {"state", bench_command_state, "time and size of snapshots, in a pile and at rest"},
     {"history", bench_command_history, "keeping frames and going back to them, beside a plain copy of as many bytes"},
+    {"many", bench_command_many, "many small worlds, one by one and as a batch, beside MuJoCo's: many [WORLDS]"},
     {"record", bench_command_record, "what recording costs, and how fast it plays: record [BODIES [SLEEPING]]"},
     {"replay", bench_command_replay,
      "every case, recorded and played again: replay [--quick] [--keep FOLDER] [CASE...]"},

@@ -133,6 +133,7 @@ missing() {
         pkg-config --exists bullet 2> /dev/null || echo libbullet-dev
         pkg-config --exists ode 2> /dev/null || echo libode-dev
         pkg-config --exists box2d 2> /dev/null || echo libbox2d-dev
+        test -f /usr/include/mujoco/mujoco.h || echo libmujoco-dev
         has clang-format || echo clang-format
     fi
 }

@@ -160,6 +160,7 @@ static fe_result add_body(bench_world *w, const bench_scene *scene, const bench_
     form.material.restitution = shape->restitution;
     form.material.rolling_resistance = shape->rolling;
     if (!body->collides) form.mask = 0;
+    form.group = -body->group; // negative: shapes of one group never collide
     if (shape->form == BENCH_COMPOUND) return add_parts(world, *out_body, &form, shape);
     fe_geometry geometry = geometry_of(shape, w->assets[body->shape]);
     fe_shape created;
@@ -176,20 +177,6 @@ static void destroy(bench_world *w)
     free(w->transforms);
     free(w->velocities);
     free(w);
-}
-
-// Bodies of one group do not touch each other.
-static fe_result part_groups(const bench_world *w, const bench_scene *scene)
-{
-    fe_result result = FE_OK;
-    for (int32_t i = 0; i < w->count && result == FE_OK; i++) {
-        if (scene->bodies[i].group == 0) continue;
-        for (int32_t k = 0; k < i && result == FE_OK; k++) {
-            if (scene->bodies[k].group == scene->bodies[i].group)
-                result = fe_world_ignore_collision(w->world, w->bodies[k], w->bodies[i], 1);
-        }
-    }
-    return result;
 }
 
 // ---- joints --------------------------------------------------------------------------------------------------------
@@ -331,7 +318,6 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     if (result == FE_OK) result = make_assets(w, scene);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++)
         result = add_body(w, scene, &scene->bodies[i], &w->bodies[i]);
-    if (result == FE_OK) result = part_groups(w, scene);
     if (result == FE_OK) result = set_tuning(w->world, scene);
     for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
     if (result != FE_OK) {

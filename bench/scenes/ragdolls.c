@@ -9,6 +9,7 @@
 #define PITCH 2.0    // m, between people
 #define CELL 0.5f    // m, of the terrain
 #define HEIGHT 4.5   // m, of the feet: hills end at 3.2
+#define PLANE 0.5    // m, of the feet over flat ground
 #define FRICTION 5.0 // N m, of joints
 
 static fe_vec3 minus(fe_vec3 a, fe_vec3 b) { return fe_make_vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -23,7 +24,7 @@ static int32_t add_shape(bench_scene *scene, const ragdoll_bone *bone)
 }
 
 // The body is the capsule, not the bone: its origin lies in the middle
-static int32_t add_bone(bench_scene *scene, const ragdoll_bone *bone, int32_t shape, double x, double z)
+static int32_t add_bone(bench_scene *scene, const ragdoll_bone *bone, int32_t shape, const double *at)
 {
     fe_vec3 along = minus(bone->end_b, bone->end_a);
     fe_vec3 half = {0.5f * (bone->end_a.x + bone->end_b.x), 0.5f * (bone->end_a.y + bone->end_b.y),
@@ -31,20 +32,21 @@ static int32_t add_bone(bench_scene *scene, const ragdoll_bone *bone, int32_t sh
     fe_vec3 middle = machine_rotate(bone->rotation, half);
     fe_quat q = machine_multiply(bone->rotation, machine_turn_y_to(along));
     double length = sqrt((double)(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w));
-    double at_x = (double)(bone->position.x + middle.x), at_y = (double)(bone->position.y + middle.y);
-    int32_t body = bench_add_dynamic(scene, shape, x + at_x, HEIGHT + at_y, z + (double)(bone->position.z + middle.z));
+    int32_t body =
+        bench_add_dynamic(scene, shape, at[0] + (double)(bone->position.x + middle.x),
+                          at[1] + (double)(bone->position.y + middle.y), at[2] + (double)(bone->position.z + middle.z));
     const float rotation[4] = {q.x, q.y, q.z, q.w};
     for (int k = 0; k < 4; k++) scene->bodies[body].start.rotation[k] = (double)rotation[k] / length;
     return body;
 }
 
-static void add_joint(bench_scene *scene, const ragdoll_bone *bone, int32_t parent, int32_t child, double x, double z)
+static void add_joint(bench_scene *scene, const ragdoll_bone *bone, int32_t parent, int32_t child, const double *at)
 {
     const double degree = BENCH_PI / 180.0;
     fe_vec3 point = machine_rotate(bone->rotation, bone->point);
     int32_t index =
-        bench_add_joint(scene, parent, child, x + (double)(bone->position.x + point.x),
-                        HEIGHT + (double)(bone->position.y + point.y), z + (double)(bone->position.z + point.z));
+        bench_add_joint(scene, parent, child, at[0] + (double)(bone->position.x + point.x),
+                        at[1] + (double)(bone->position.y + point.y), at[2] + (double)(bone->position.z + point.z));
     bench_joint *joint = &scene->joints[index];
     fe_vec3 axis = machine_rotate(machine_multiply(bone->rotation, bone->frame_b),
                                   fe_make_vec3(0, 0, 1)); // the table's are about Z
@@ -58,6 +60,29 @@ static void add_joint(bench_scene *scene, const ragdoll_bone *bone, int32_t pare
     joint->motor_max = FRICTION * (double)bone->friction;
 }
 
+// at: of the feet
+static void add_person(bench_scene *scene, const int32_t *shapes, const double *at, int32_t group)
+{
+    const int32_t first = scene->body_count;
+    for (int32_t i = 0; i < RAGDOLL_BONES; i++) {
+        const ragdoll_bone *bone = &ragdoll_bones[i];
+        const int32_t body = add_bone(scene, bone, shapes[i], at); // may move the array
+        scene->bodies[body].group = group;
+        if (bone->parent >= 0) add_joint(scene, bone, first + bone->parent, first + i, at);
+    }
+}
+
+void bench_build_people(bench_scene *scene, int32_t n)
+{
+    int32_t shapes[RAGDOLL_BONES];
+    const float half = 20.0f + (float)(PITCH * n);
+    bench_add_static(scene, bench_add_shape(scene, bench_make_box(half, 1.0f, 20.0f)), 0.0, -1.0, 0.0);
+    for (int32_t i = 0; i < RAGDOLL_BONES; i++) shapes[i] = add_shape(scene, &ragdoll_bones[i]);
+    for (int32_t i = 0; i < n; i++) add_person(scene, shapes, (double[]){PITCH * i, PLANE, 0.0}, i + 1);
+    scene->warm_up_steps = 20;
+    scene->timed_steps = 80;
+}
+
 void bench_build_ragdolls(bench_scene *scene, int32_t n)
 {
     const int32_t columns = (int32_t)ceil(sqrt((double)n));
@@ -67,13 +92,7 @@ void bench_build_ragdolls(bench_scene *scene, int32_t n)
     for (int32_t i = 0; i < RAGDOLL_BONES; i++) shapes[i] = add_shape(scene, &ragdoll_bones[i]);
     for (int32_t person = 0; person < n; person++) {
         const double x = PITCH * (person % columns - 0.5 * columns), z = PITCH * (person / columns - 0.5 * columns);
-        const int32_t first = scene->body_count;
-        for (int32_t i = 0; i < RAGDOLL_BONES; i++) {
-            const ragdoll_bone *bone = &ragdoll_bones[i];
-            const int32_t body = add_bone(scene, bone, shapes[i], x, z); // may move the array
-            scene->bodies[body].group = person + 1;
-            if (bone->parent >= 0) add_joint(scene, bone, first + bone->parent, first + i, x, z);
-        }
+        add_person(scene, shapes, (double[]){x, HEIGHT, z}, person + 1);
     }
     scene->warm_up_steps = 60; // they land
     scene->timed_steps = 200;

@@ -9,7 +9,7 @@
 
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
-    SMALL = 16,           // records: a smaller array grows fourfold; a world of one body stays small
+    FIRST = 4,            // records: an array that has fewer grows to so many
     DOUBLE_BELOW = 1024,  // records: a larger array grows by an eighth
     GROWTH = 8,
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
@@ -76,13 +76,15 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// As much as is asked for, then fourfold, doubling, and by an eighth once an array is large: O(log n) times, and little
-// room is left over. 0: more than there can be
+// As much as is asked for, then in half octaves (4, 6, 8, 12, 16: a world of a batch is small, and there are
+// thousands), and by an eighth once an array is large: O(log n) times, and little room is left over. 0: more than there
+// can be
 static int32_t grown_capacity(int32_t capacity, int64_t need, size_t size)
 {
     if (need > INT32_MAX) return 0;
     int64_t grown = capacity ? capacity : need < DOUBLE_BELOW ? need : DOUBLE_BELOW;
-    while (grown < need && grown < DOUBLE_BELOW) grown *= grown < SMALL ? 4 : 2;
+    if (grown < need && grown < FIRST) grown = FIRST;
+    while (grown < need && grown < DOUBLE_BELOW) grown += (grown & (grown - 1)) == 0 ? grown / 2 : (grown + 2) / 3;
     if (grown < need) grown = grown + grown / GROWTH > need + need / ROOM ? grown + grown / GROWTH : need + need / ROOM;
     if (grown > INT32_MAX) grown = INT32_MAX;
     return (uint64_t)grown > PTRDIFF_MAX / size ? 0 : (int32_t)grown;

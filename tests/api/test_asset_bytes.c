@@ -339,8 +339,10 @@ static void break_each_seed(breaker *breaking)
         fe_allocator allocator = counting_allocator(&c);
         fe_store *store = new_store(&allocator);
         blob whole = seed(i), broken = seed(i);
-        fe_asset first;
-        OK(fe_asset_load(store, whole.bytes, whole.size, &first)); // the store has its tables
+        fe_asset first, second;
+        OK(fe_asset_load(store, whole.bytes, whole.size, &first));
+        OK(fe_asset_load(store, whole.bytes, whole.size, &second)); // the store has its tables, and room for one more
+        OK(fe_asset_destroy(store, second));
         breaking(store, &c, &whole, &broken);
         free(whole.bytes), free(broken.bytes);
         OK(fe_store_destroy(store));

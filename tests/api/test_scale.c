@@ -370,14 +370,14 @@ static void many_scales_leave_nothing_behind(void **state)
             if (shapes[j]) has_scale(world, shapes[j], scales[j].x, scales[j].y, scales[j].z);
     }
     int64_t before = 0;
-    for (int32_t turn = 0; turn < 2; ++turn) {
+    for (int32_t turn = 0; turn < 3; ++turn) { // the first fills all, which tables may grow for
         for (int32_t j = 0; j < SHAPES; ++j) {
             if (shapes[j]) OK(fe_shape_destroy(world, shapes[j]));
             shapes[j] = 0;
         }
-        if (turn) assert_int_equal(bytes_of(store), before);
+        if (turn == 2) assert_int_equal(bytes_of(store), before);
         before = bytes_of(store);
-        for (int32_t j = 0; !turn && j < SHAPES; ++j) {
+        for (int32_t j = 0; turn < 2 && j < SHAPES; ++j) {
             fe_geometry g = hull_of(assets[0], 1.0f + 0.01f * (float)j, 1, 1);
             shapes[j] = add_shape(world, ground, &g);
         }
@@ -485,7 +485,11 @@ static void each_allocation_may_fail(void **state)
             } else {
                 OK(result);
             }
-            if (i == 7) OK(fe_shape_set_geometry(world, shape, &g));
+            if (i == 7 && fe_shape_set_geometry(world, shape, &g) != FE_OK) {
+                SAYS("no memory");
+                refused += 1;
+                OK(fe_shape_set_geometry(world, shape, &g));
+            }
         }
         if (!first) calls = c.calls - before;
         OK(fe_world_destroy(world));

@@ -116,13 +116,16 @@ static void arrays_grow_from_one_and_keep_their_records(void **state)
     assert_int_equal(capacity, 1);
     assert_true(FE_RESERVE(&memory, numbers, capacity, 2));
     assert_int_equal(capacity, 4);
-    assert_true(FE_RESERVE(&memory, numbers, capacity, 5));
-    assert_int_equal(capacity, 16);
+    const int32_t octaves[] = {6, 8, 12, 16};
+    for (int32_t i = 0; i < 4; ++i) {
+        assert_true(FE_RESERVE(&memory, numbers, capacity, capacity + 1));
+        assert_int_equal(capacity, octaves[i]);
+    }
     for (int32_t i = 0; i < 16; ++i) numbers[i] = i + 1;
     assert_true(FE_RESERVE(&memory, numbers, capacity, 16));
-    assert_int_equal(h.allocations, 3);
+    assert_int_equal(h.allocations, 6);
     assert_true(FE_RESERVE(&memory, numbers, capacity, 17));
-    assert_int_equal(capacity, 32);
+    assert_int_equal(capacity, 24);
     assert_true(FE_RESERVE(&memory, numbers, capacity, 1000));
     assert_int_equal(capacity, 1024);
     for (int32_t i = 0; i < 16; ++i) assert_int_equal(numbers[i], i + 1);
