@@ -15,6 +15,7 @@
 #   make viewer     build/viewer.html, a page that plays recordings; make test-viewer: its tests
 #   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
 #   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
+#   make packages   packages for every language and target in build/packages; make test-packages: installs each, runs its first program
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #

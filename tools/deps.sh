@@ -23,6 +23,7 @@ missing_for_python() {
     python_has wheel || echo python3-wheel
     python_has pip || echo python3-pip
     python_has ensurepip || echo python3-venv
+    python_has build.env || echo python3-build
     python_has pytest || echo python3-pytest
     python_has numpy || echo python3-numpy
     python_has matplotlib || echo python3-matplotlib
