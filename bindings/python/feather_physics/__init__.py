@@ -77,6 +77,7 @@ from .records import (
 )
 from .snapshot import compare_snapshots, snapshot_assets, snapshot_info
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
+from .sweeping import SweepError, sweep
 from .world import Pool, World
 
 __all__ = [
@@ -147,6 +148,7 @@ __all__ = [
     "StateError",
     "SteppingError",
     "Store",
+    "SweepError",
     "Transform",
     "Tuning",
     "UnsupportedError",
@@ -158,5 +160,6 @@ __all__ = [
     "compare_snapshots",
     "snapshot_assets",
     "snapshot_info",
+    "sweep",
 ]
 __version__ = ".".join(str(_flat.version() >> shift & 0xFF) for shift in (16, 8, 0))
