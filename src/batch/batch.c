@@ -123,9 +123,9 @@ void fe__batch_leave(fe_batch *b, const uint8_t *mask) { leave_first(b, mask, b-
 // One block: the arrays, then the items of each
 static void copy_arrays(fe__bound *bound, const fe__batch_array *arrays, int32_t count)
 {
-    memcpy(bound->arrays, arrays, (size_t)count * sizeof *arrays);
     fe_handle *items = (fe_handle *)(void *)(bound->arrays + count);
     for (int32_t i = 0; i < count; items += arrays[i].item_count, ++i) {
+        bound->arrays[i] = arrays[i];
         if (arrays[i].items) memcpy(items, arrays[i].items, (size_t)arrays[i].item_count * sizeof *items);
         bound->arrays[i].items = items; // zeros: of the world itself
     }
