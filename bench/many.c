@@ -8,7 +8,6 @@
 #include "peers/peer.h"
 #include "stats.h"
 
-#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,11 +37,6 @@ typedef struct crowd {
 } crowd;
 
 static double us_now(void) { return 1e3 * bench_cpu_ms(); }
-static double heap_now(void)
-{
-    struct mallinfo2 heap = mallinfo2();
-    return (double)(heap.uordblks + heap.hblkhd);
-}
 
 // ---- Feather -------------------------------------------------------------------------------------------------------
 static int32_t make_loop(crowd *c, const bench_scene *scene)
@@ -208,11 +202,11 @@ static int32_t list_crowds(crowd *out)
 static int32_t prepare(crowd *c, const bench_scene *scene, int32_t worlds)
 {
     c->count = worlds, c->dt = scene->dt;
-    const double heap = heap_now(), start = us_now();
+    const double heap = bench_heap_bytes(), start = us_now();
     if (!c->make(c, scene)) return 0;
     c->create_us = (us_now() - start) / worlds;
     for (int32_t k = 0; k < scene->warm_up_steps; k += STEPS) c->step(c);
-    c->kilobytes = (heap_now() - heap) / worlds / 1024.0;
+    c->kilobytes = (bench_heap_bytes() - heap) / worlds / 1024.0;
     return 1;
 }
 
@@ -243,8 +237,10 @@ static void tell(const bench_scene *scene, crowd *crowds, int32_t count)
     for (int32_t i = 0; i < count; i++) {
         crowd *c = &crowds[i];
         const double us = bench_stats_of(c->us, ROUNDS).median, wall = bench_stats_of(c->wall, ROUNDS).median;
-        printf("  %-36s %9.2f %9.2f %8.2f %9.2f %9.1f %9.1f", c->name, us, wall, us / first,
-               us / (double)scene->dt / 1e3, c->kilobytes, c->create_us);
+        printf("  %-36s %9.2f %9.2f %8.2f %9.2f", c->name, us, wall, us / first, us / (double)scene->dt / 1e3);
+        if (c->kilobytes > 0) printf(" %9.1f", c->kilobytes);
+        else printf(" %9s", "-"); // the C library cannot tell
+        printf(" %9.1f", c->create_us);
         if (c->reset != NULL) printf(" %9.1f", c->reset_us);
         printf("\n");
     }

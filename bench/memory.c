@@ -3,6 +3,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 static void *present_or_exit(void *memory)
 {
@@ -19,4 +22,14 @@ void *bench_allocate(size_t count, size_t size) { return present_or_exit(calloc(
 void *bench_resize(void *items, size_t count, size_t size)
 {
     return present_or_exit(realloc(items, (count > 0 ? count : 1) * size));
+}
+
+double bench_heap_bytes(void)
+{
+#ifdef __GLIBC__
+    const struct mallinfo2 heap = mallinfo2();
+    return (double)(heap.uordblks + heap.hblkhd);
+#else
+    return 0;
+#endif
 }

@@ -9,5 +9,7 @@
 void *bench_allocate(size_t count, size_t size);
 /// Makes `items` hold `count` items of `size` bytes; what was in it stays.
 void *bench_resize(void *items, size_t count, size_t size);
+/// Bytes that the whole program holds on its heap. 0 where the C library cannot tell (it can in glibc).
+double bench_heap_bytes(void);
 
 #endif
