@@ -1757,6 +1757,27 @@ FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies,
 FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
                                      int32_t count);
 
+// Many joints with one call, all or none, along the free axis of each: the hinge's, the distance, or the first axis of
+// a configurable joint that is not locked. A ball or fixed joint has none: it reads 0, and takes nothing
+// (FE_ERROR_STATE). A joint may be named twice: its last value stands, forces add up.
+
+/// Angle, translation or length, rad or m, then its rate, rad/s or m/s: 2 floats a joint. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_get_joint_coordinates(const fe_world *world, const fe_joint *joints, float *out_floats,
+                                                uint32_t stride, int32_t count);
+/// Force, N, then torque, N m, as fe_joint_get_reaction: 6 floats a joint. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_get_joint_reactions(const fe_world *world, const fe_joint *joints, float *out_floats,
+                                              uint32_t stride, int32_t count);
+/// fe_joint_set_target for many, rad or m: a float a joint. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_set_joint_targets(fe_world *world, const fe_joint *joints, const float *values,
+                                            uint32_t stride, int32_t count);
+/// fe_joint_set_motor_speed for many, rad/s or m/s: a float a joint. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_set_joint_motor_speeds(fe_world *world, const fe_joint *joints, const float *values,
+                                                 uint32_t stride, int32_t count);
+/// A torque about the axis on B, N m, or a force along it, N, and the opposite on A, during the next step: a float a
+/// joint. Sleeping bodies wake. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_add_joint_forces(fe_world *world, const fe_joint *joints, const float *values,
+                                           uint32_t stride, int32_t count);
+
 // ---- snapshots ------------------------------------------------------------------------------------------------------
 // A world as bytes, between two calls: all that decides how it goes on, and what the calls say of the last step. A
 // world made from them answers and moves as the saved one does, bit for bit, on every machine, with any workers and

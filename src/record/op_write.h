@@ -11,7 +11,8 @@ typedef struct fe__words {
 enum { FE__OP_STRUCT = 5 }; // bytes that a struct takes beside itself, at most
 
 static const fe__words fe__handle_words[] = {{8, 1}, {0, 0}};
-static const fe__words fe__float_words[] = {{4, 6}, {0, 0}};
+static const fe__words fe__six_floats[] = {{4, 6}, {0, 0}};
+static const fe__words fe__one_float[] = {{4, 1}, {0, 0}};
 
 // Words of a struct, as many as there are in `size` bytes, to little-endian ones or back
 static inline void fe__move_words(unsigned char *to, const unsigned char *from, int64_t size, const fe__words *words)

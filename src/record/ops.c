@@ -655,7 +655,7 @@ void fe__record_world_set_velocities(fe_recorder *recorder, const fe_body *bodie
     if (!at) return;
     at = fe__put_i32(at, count);
     at = fe__put_array(at, bodies, 0, count, sizeof(fe_handle), fe__handle_words);
-    at = fe__put_array(at, floats, stride, count, 6 * sizeof(float), fe__float_words);
+    at = fe__put_array(at, floats, stride, count, 6 * sizeof(float), fe__six_floats);
     fe__op_end(recorder, at);
 }
 
@@ -668,6 +668,45 @@ void fe__record_world_add_forces(fe_recorder *recorder, const fe_body *bodies, c
     if (!at) return;
     at = fe__put_i32(at, count);
     at = fe__put_array(at, bodies, 0, count, sizeof(fe_handle), fe__handle_words);
-    at = fe__put_array(at, floats, stride, count, 6 * sizeof(float), fe__float_words);
+    at = fe__put_array(at, floats, stride, count, 6 * sizeof(float), fe__six_floats);
+    fe__op_end(recorder, at);
+}
+
+void fe__record_world_set_joint_targets(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                        uint32_t stride, int32_t count)
+{
+    unsigned char *at =
+        fe__op_begin(recorder, FE__OP_WORLD_SET_JOINT_TARGETS,
+                     (int64_t)(4 + (size_t)count * sizeof(fe_handle) + (size_t)count * 1 * sizeof(float)));
+    if (!at) return;
+    at = fe__put_i32(at, count);
+    at = fe__put_array(at, joints, 0, count, sizeof(fe_handle), fe__handle_words);
+    at = fe__put_array(at, values, stride, count, 1 * sizeof(float), fe__one_float);
+    fe__op_end(recorder, at);
+}
+
+void fe__record_world_set_joint_motor_speeds(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                             uint32_t stride, int32_t count)
+{
+    unsigned char *at =
+        fe__op_begin(recorder, FE__OP_WORLD_SET_JOINT_MOTOR_SPEEDS,
+                     (int64_t)(4 + (size_t)count * sizeof(fe_handle) + (size_t)count * 1 * sizeof(float)));
+    if (!at) return;
+    at = fe__put_i32(at, count);
+    at = fe__put_array(at, joints, 0, count, sizeof(fe_handle), fe__handle_words);
+    at = fe__put_array(at, values, stride, count, 1 * sizeof(float), fe__one_float);
+    fe__op_end(recorder, at);
+}
+
+void fe__record_world_add_joint_forces(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                       uint32_t stride, int32_t count)
+{
+    unsigned char *at =
+        fe__op_begin(recorder, FE__OP_WORLD_ADD_JOINT_FORCES,
+                     (int64_t)(4 + (size_t)count * sizeof(fe_handle) + (size_t)count * 1 * sizeof(float)));
+    if (!at) return;
+    at = fe__put_i32(at, count);
+    at = fe__put_array(at, joints, 0, count, sizeof(fe_handle), fe__handle_words);
+    at = fe__put_array(at, values, stride, count, 1 * sizeof(float), fe__one_float);
     fe__op_end(recorder, at);
 }

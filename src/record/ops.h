@@ -73,6 +73,9 @@ enum {
     FE__OP_WORLD_SET_TRANSFORMS = 80,
     FE__OP_WORLD_SET_VELOCITIES = 81,
     FE__OP_WORLD_ADD_FORCES = 82,
+    FE__OP_WORLD_SET_JOINT_TARGETS = 83,
+    FE__OP_WORLD_SET_JOINT_MOTOR_SPEEDS = 84,
+    FE__OP_WORLD_ADD_JOINT_FORCES = 85,
 };
 
 void fe__record_world_set_gravity(fe_recorder *recorder, const fe_vec3 *gravity);
@@ -149,5 +152,11 @@ void fe__record_world_set_velocities(fe_recorder *recorder, const fe_body *bodie
                                      int32_t count);
 void fe__record_world_add_forces(fe_recorder *recorder, const fe_body *bodies, const float *floats, uint32_t stride,
                                  int32_t count);
+void fe__record_world_set_joint_targets(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                        uint32_t stride, int32_t count);
+void fe__record_world_set_joint_motor_speeds(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                             uint32_t stride, int32_t count);
+void fe__record_world_add_joint_forces(fe_recorder *recorder, const fe_joint *joints, const float *values,
+                                       uint32_t stride, int32_t count);
 
 #endif

@@ -666,7 +666,7 @@ static fe_result play_world_set_velocities(fe__op_in *in)
 {
     int32_t count = fe__in_count(in);
     fe_handle *bodies = fe__in_array(in, 0, count, sizeof(fe_handle), fe__handle_words);
-    float *floats = fe__in_array(in, 1, count, 6 * sizeof(float), fe__float_words);
+    float *floats = fe__in_array(in, 1, count, 6 * sizeof(float), fe__six_floats);
     if (in->result != FE_OK) return in->result;
     fe_result result = fe_world_set_velocities(in->world, bodies, floats, 0, count);
     return fe__in_compare(in, result, NULL, NULL, 0);
@@ -676,9 +676,39 @@ static fe_result play_world_add_forces(fe__op_in *in)
 {
     int32_t count = fe__in_count(in);
     fe_handle *bodies = fe__in_array(in, 0, count, sizeof(fe_handle), fe__handle_words);
-    float *floats = fe__in_array(in, 1, count, 6 * sizeof(float), fe__float_words);
+    float *floats = fe__in_array(in, 1, count, 6 * sizeof(float), fe__six_floats);
     if (in->result != FE_OK) return in->result;
     fe_result result = fe_world_add_forces(in->world, bodies, floats, 0, count);
+    return fe__in_compare(in, result, NULL, NULL, 0);
+}
+
+static fe_result play_world_set_joint_targets(fe__op_in *in)
+{
+    int32_t count = fe__in_count(in);
+    fe_handle *joints = fe__in_array(in, 0, count, sizeof(fe_handle), fe__handle_words);
+    float *values = fe__in_array(in, 1, count, 1 * sizeof(float), fe__one_float);
+    if (in->result != FE_OK) return in->result;
+    fe_result result = fe_world_set_joint_targets(in->world, joints, values, 0, count);
+    return fe__in_compare(in, result, NULL, NULL, 0);
+}
+
+static fe_result play_world_set_joint_motor_speeds(fe__op_in *in)
+{
+    int32_t count = fe__in_count(in);
+    fe_handle *joints = fe__in_array(in, 0, count, sizeof(fe_handle), fe__handle_words);
+    float *values = fe__in_array(in, 1, count, 1 * sizeof(float), fe__one_float);
+    if (in->result != FE_OK) return in->result;
+    fe_result result = fe_world_set_joint_motor_speeds(in->world, joints, values, 0, count);
+    return fe__in_compare(in, result, NULL, NULL, 0);
+}
+
+static fe_result play_world_add_joint_forces(fe__op_in *in)
+{
+    int32_t count = fe__in_count(in);
+    fe_handle *joints = fe__in_array(in, 0, count, sizeof(fe_handle), fe__handle_words);
+    float *values = fe__in_array(in, 1, count, 1 * sizeof(float), fe__one_float);
+    if (in->result != FE_OK) return in->result;
+    fe_result result = fe_world_add_joint_forces(in->world, joints, values, 0, count);
     return fe__in_compare(in, result, NULL, NULL, 0);
 }
 
@@ -750,6 +780,9 @@ static const fe__op_call calls[] = {
     [FE__OP_WORLD_SET_TRANSFORMS] = {"fe_world_set_transforms", play_world_set_transforms},
     [FE__OP_WORLD_SET_VELOCITIES] = {"fe_world_set_velocities", play_world_set_velocities},
     [FE__OP_WORLD_ADD_FORCES] = {"fe_world_add_forces", play_world_add_forces},
+    [FE__OP_WORLD_SET_JOINT_TARGETS] = {"fe_world_set_joint_targets", play_world_set_joint_targets},
+    [FE__OP_WORLD_SET_JOINT_MOTOR_SPEEDS] = {"fe_world_set_joint_motor_speeds", play_world_set_joint_motor_speeds},
+    [FE__OP_WORLD_ADD_JOINT_FORCES] = {"fe_world_add_joint_forces", play_world_add_joint_forces},
 };
 
 const fe__op_call *fe__op_call_of(int32_t number)
