@@ -1761,7 +1761,7 @@ FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, con
 // a configurable joint that is not locked. A ball or fixed joint has none: it reads 0, and takes nothing
 // (FE_ERROR_STATE). A joint may be named twice: its last value stands, forces add up.
 
-/// Angle, translation or length, rad or m, then its rate, rad/s or m/s: 2 floats a joint. @param stride  bytes, 0: packed
+/// Angle, translation or length, rad or m, then its rate, 2 floats a joint. @param stride  bytes, 0: packed
 FE_API fe_result fe_world_get_joint_coordinates(const fe_world *world, const fe_joint *joints, float *out_floats,
                                                 uint32_t stride, int32_t count);
 /// Force, N, then torque, N m, as fe_joint_get_reaction: 6 floats a joint. @param stride  bytes, 0: packed

@@ -37,6 +37,11 @@ export const LEFT_OUT = {
     fe_batch_read: 'many worlds at once are for hosts in C',
     fe_batch_write: 'many worlds at once are for hosts in C',
     fe_batch_hash: 'many worlds at once are for hosts in C',
+    fe_world_get_joint_coordinates: 'joints are read and driven one by one',
+    fe_world_get_joint_reactions: 'joints are read and driven one by one',
+    fe_world_set_joint_targets: 'joints are read and driven one by one',
+    fe_world_set_joint_motor_speeds: 'joints are read and driven one by one',
+    fe_world_add_joint_forces: 'joints are read and driven one by one',
     fe_world_set_pair_filter: 'calls back into JavaScript in a step; layers, groups and ignored pairs decide there',
 };
 

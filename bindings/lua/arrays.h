@@ -11,6 +11,7 @@
 /// How many records the arrays of a call have.
 typedef struct call_state {
     int32_t count;
+    int is_counted; ///< a table came already, it may have been empty
 } call_state;
 
 // ---- arrays that go in ----------------------------------------------------------------------------------------------
@@ -41,9 +42,9 @@ static int records_in(lua_State *L, int index, int width, call_state *call, cons
 {
     int length = length_of(L, index, what);
     if (length % width) fail(L, "feather: %s: %d numbers are not whole records of %d", what, length, width);
-    if (call->count && call->count != length / width)
+    if (call->is_counted && call->count != length / width)
         fail(L, "feather: %s: %d records where the other table has %d", what, length / width, (int)call->count);
-    call->count = length / width;
+    call->count = length / width, call->is_counted = 1;
     return length / width;
 }
 

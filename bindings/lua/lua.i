@@ -3,6 +3,8 @@
 // errors are Lua errors with the library's sentence. lua/feather/ffi.lua does the same for LuaJIT. One C module for
 // each Lua is made from this one source.
 %{
+#include "rows.h"
+
 #include "lua/arrays.h"
 #include "lua/assets.h"
 #include "lua/boxes.h"
@@ -25,7 +27,7 @@
 
 // ---- worlds, pools and stores ---------------------------------------------------------------------------------------
 
-%typemap(in) fe_world * (call_state call) "$1 = to_world(L, $input); call.count = 0;"
+%typemap(in) fe_world * (call_state call) "$1 = to_world(L, $input); call = (call_state){0};"
 %typemap(in) const fe_world * = fe_world *;
 // again, when all arguments are converted: a filter's __index may have destroyed the world
 %typemap(check) fe_world *, const fe_world * "$1 = check_world(L, lua_touserdata(L, 1));"
@@ -60,7 +62,7 @@
     push_store(L, *$1, strcmp("$symname", "world_get_store") == 0 ? 1 : 0);
     SWIG_arg++;
 %}
-%typemap(in) fe_store * (call_state call) "$1 = to_store(L, $input); call.count = 0; (void)call;"
+%typemap(in) fe_store * (call_state call) "$1 = to_store(L, $input); call = (call_state){0}; (void)call;"
 %typemap(in) const fe_store * = fe_store *;
 %typemap(check) fe_store *, const fe_store * "$1 = to_store(L, $argnum);"
 %typemap(argout) fe_store *store %{
@@ -76,7 +78,7 @@
 
 %typemap(in, numinputs=0) fe_history **out_history (fe_history *made = 0) "$1 = &made;"
 %typemap(argout) fe_history **out_history %{ push_history(L, *$1); SWIG_arg++; %}
-%typemap(in) fe_history * (call_state call) "$1 = to_history(L, $input); call.count = 0; (void)call;"
+%typemap(in) fe_history * (call_state call) "$1 = to_history(L, $input); call = (call_state){0}; (void)call;"
 %typemap(in) const fe_history * = fe_history *;
 %typemap(check) fe_history *, const fe_history * "$1 = to_history(L, $argnum);"
 %typemap(argout) fe_history *history %{
@@ -187,6 +189,7 @@ FE_OUT_RECORDS
 
 %typemap(in) const fe_handle * "$1 = to_handles(L, $input, &call1, \"$1_name\");"
 %typemap(in) const float *floats "$1 = to_floats(L, $input, 6, &call1, \"$1_name\");"
+%typemap(in) const float *values "$1 = to_floats(L, $input, 1, &call1, \"$1_name\");"
 %typemap(in) const float *heights "$1 = to_floats(L, $input, 1, &call1, \"$1_name\");"
 %typemap(check) const float *heights "heights_fit(L, call1.count, arg5, arg6);"
 %typemap(in) const fe_transform *transforms "$1 = to_transforms(L, $input, &call1, \"$1_name\");"
@@ -207,7 +210,7 @@ FE_OUT_RECORDS
 %typemap(check) fe_hit *out_hits "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
 %typemap(check) float *out_heights "$1 = ($1_ltype)new_heights(L, arg5, arg6);"
 %typemap(argout) float *out_floats {
-    push_floats(L, $1, call1.count * (ends_with("$symname", "transforms_f32") ? 7 : 6));
+    push_floats(L, $1, call1.count * floats_of("$symname"));
     SWIG_arg++;
 }
 %typemap(argout) float *out_heights { push_floats(L, $1, arg5 * arg6); SWIG_arg++; }

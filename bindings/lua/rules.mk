@@ -8,7 +8,7 @@ LUA_SOURCES := $(wildcard bindings/lua/feather/*.lua)
 lua: $(LUA_VERSIONS:%=$(BUILD)/lua/%/feather/core.so) $(LUA_SOURCES:bindings/lua/%=$(BUILD)/lua/%)
 lua: $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so
 
-$(BUILD)/lua/core.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/lua/lua.i include/feather.h
+$(BUILD)/lua/core.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/rows.h bindings/lua/lua.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -lua -nomoduleglobal -Iinclude -Ibindings -o $@ bindings/feather.i
 $(BUILD)/lua/%/feather/core.so: $(BUILD)/lua/core.c $(wildcard bindings/lua/*.h) $(STATIC)

@@ -2,6 +2,8 @@
 // fields, arrays anything with the buffer protocol (their strides and counts are found from it), errors exceptions;
 // worlds, pools and stores are capsules.
 %{
+#include "rows.h"
+
 #include "python/convert.h"
 #include "python/picture.h"
 %}
@@ -199,6 +201,8 @@ FE_WITHOUT_GIL(fe_world_get_moved, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_transforms, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_transforms_f32, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_velocities, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_joint_coordinates, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_joint_reactions, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_lines, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_triangles, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_draw_points, enter_read, leave_read)
@@ -407,6 +411,7 @@ FE_INPUT(const fe_transform *transforms, sizeof *$1, "")
 FE_INPUT(const fe_ray *rays, RAY_SIZE, "")
 FE_INPUT(const fe_path *paths, PATH_SIZE, "")
 FE_INPUT(const float *floats, 6 * sizeof *$1, "f")
+FE_INPUT(const float *values, sizeof *$1, "f")
 FE_INPUT(const float *heights, sizeof *$1, "f")
 %typemap(argout) const fe_handle *, const float * ""
 FE_OUTPUT(fe_handle *out_bodies, sizeof *$1, "QqLl")
@@ -422,7 +427,7 @@ FE_OUTPUT(fe_joint_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_contact *out_contacts, sizeof *$1, "")
 FE_OUTPUT(fe_draw_vertex *out_vertices, sizeof *$1, "")
 FE_OUTPUT(fe_draw_instance *out_instances, sizeof *$1, "")
-FE_OUTPUT(float *out_floats, (ends_with("$symname", "transforms_f32") ? 7 : 6) * sizeof *$1, "f")
+FE_OUTPUT(float *out_floats, (size_t)floats_of("$symname") * sizeof *$1, "f")
 FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 FE_OUTPUT(fe_vec3 *out_vertices, sizeof *$1, "f")
 FE_OUTPUT(fe_hull_face *out_faces, sizeof *$1, "")

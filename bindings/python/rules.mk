@@ -14,7 +14,7 @@ WRAPPER_FLAGS = -std=gnu11 -O2 -fPIC -pthread -ffp-contract=off -Wno-unused-but-
 .PHONY: python test-python
 python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/python/%)
 
-$(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/python/python.i include/feather.h
+$(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/rows.h bindings/python/python.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
 $(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h bindings/python/picture.h $(PYTHON_PICTURE) $(STATIC)

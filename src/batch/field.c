@@ -125,8 +125,7 @@ static fe_result write_gravity(fe_world *w, int32_t none, const double *row)
     return FE_OK;
 }
 
-// ---- joints, along the degree of freedom that they have
-// --------------------------------------------------------------
+// ---- joints, along the degree of freedom that they have ------------------------------------------------------------
 static int32_t free_dof(const fe_world *w, int32_t joint, fe__joint_any *def)
 {
     fe__joint_describe(w, joint, def);
@@ -217,13 +216,6 @@ static float *find_drive(const fe_world *w, int32_t joint, drive_of find, fe__jo
     return dof < 0 ? NULL : find(def, w->joint_records[joint].type, dof);
 }
 
-static fe_result takes_drive(const fe_world *w, int32_t joint, drive_of find, const double *row)
-{
-    fe__joint_any def;
-    if (!find_drive(w, joint, find, &def)) return FE_ERROR_STATE;
-    return in_range(are_within(row, 1, (double)FE_MAX_SPEED));
-}
-
 static fe_result write_drive(fe_world *w, int32_t joint, drive_of find, const double *row)
 {
     fe__joint_any def;
@@ -235,7 +227,9 @@ static fe_result write_drive(fe_world *w, int32_t joint, drive_of find, const do
 
 static fe_result takes_speed(const fe_world *w, int32_t joint, const double *row)
 {
-    return takes_drive(w, joint, fe__joint_motor_speed, row);
+    fe__joint_any def;
+    if (!find_drive(w, joint, fe__joint_motor_speed, &def)) return FE_ERROR_STATE;
+    return in_range(are_within(row, 1, (double)FE_MAX_SPEED));
 }
 static fe_result write_speed(fe_world *w, int32_t joint, const double *row)
 {
@@ -243,7 +237,11 @@ static fe_result write_speed(fe_world *w, int32_t joint, const double *row)
 }
 static fe_result takes_target(const fe_world *w, int32_t joint, const double *row)
 {
-    return takes_drive(w, joint, fe__joint_target, row);
+    fe__joint_any def;
+    float least, most;
+    if (!find_drive(w, joint, fe__joint_target, &def)) return FE_ERROR_STATE;
+    fe__joint_target_range(w->joint_records[joint].type, free_dof(w, joint, &def), &least, &most);
+    return in_range(*row >= (double)least && *row <= (double)most);
 }
 static fe_result write_target(fe_world *w, int32_t joint, const double *row)
 {

@@ -1,6 +1,8 @@
 // joint_drive.c - see joint_drive.h.
 #include "world/joint_drive.h"
 
+#include "core/ranges.h"
+
 float *fe__joint_motor_speed(fe__joint_any *def, int32_t type, int32_t dof)
 {
     switch (type) {
@@ -31,6 +33,12 @@ float *fe__joint_target(fe__joint_any *def, int32_t type, int32_t dof)
     default:
         return NULL;
     }
+}
+
+void fe__joint_target_range(int32_t type, int32_t dof, float *out_least, float *out_most)
+{
+    *out_most = dof < FE_DOF_ANGULAR_X ? FE_MAX_LOCAL : FE_PI;
+    *out_least = type == FE_JOINT_DISTANCE ? 0.0f : -*out_most;
 }
 
 int32_t fe__joint_free_dof(const fe__joint_any *def, int32_t type)

@@ -572,6 +572,26 @@ static void a_bad_row_fails_its_world(void **state)
     destroy(world);
 }
 
+// A target is what a definition may have: a hinge turns by no more than pi, a distance is not negative
+static void a_target_has_the_range_of_the_definition(void **state)
+{
+    (void)state;
+    arm a = make_arm(100.0f);
+    fe_batch *batch = make_batch(a.world, WORLDS, 1, 0, FE_SIMD_AUTO);
+    static float targets[WORLDS];
+    static const float most[JOINTS] = {3.1415926f, 1e6f, 1e6f}, beyond[JOINTS] = {3.2f, 1.1e6f, -0.1f};
+    for (int32_t k = 0; k < JOINTS; ++k) {
+        const fe_array x = array_of(a.joints + k, 1, FE_FIELD_JOINT_TARGET, 1, targets);
+        targets[3] = most[k];
+        FE_TRUE(fe_batch_write(batch, &x, NULL, NULL) == 0);
+        targets[3] = beyond[k];
+        FE_TRUE(fe_batch_write(batch, &x, NULL, NULL) == 1);
+        targets[3] = 0.0f;
+    }
+    OK(fe_batch_destroy(batch));
+    destroy(a.world);
+}
+
 static void a_row_of_what_is_gone_is_zero(void **state)
 {
     (void)state;
@@ -977,6 +997,7 @@ int main(void)
         cmocka_unit_test(a_joint_s_force_turns_and_pulls),
         cmocka_unit_test(what_is_written_is_read),
         cmocka_unit_test(a_bad_row_fails_its_world),
+        cmocka_unit_test(a_target_has_the_range_of_the_definition),
         cmocka_unit_test(a_row_of_what_is_gone_is_zero),
         cmocka_unit_test(no_world_speaks_for_the_others),
         cmocka_unit_test(a_joint_that_breaks_ends_its_force),

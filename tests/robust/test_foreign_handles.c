@@ -764,6 +764,31 @@ static int32_t call_135(fe_world *w, const handles *own, const handles *h)
     (void)own;
     return (int32_t)fe_world_add_forces(w, &h->body, (void *)room, 0, 1);
 }
+static int32_t call_136(fe_world *w, const handles *own, const handles *h)
+{
+    (void)own;
+    return (int32_t)fe_world_get_joint_coordinates(w, &h->joint, (void *)room, 0, 1);
+}
+static int32_t call_137(fe_world *w, const handles *own, const handles *h)
+{
+    (void)own;
+    return (int32_t)fe_world_get_joint_reactions(w, &h->joint, (void *)room, 0, 1);
+}
+static int32_t call_138(fe_world *w, const handles *own, const handles *h)
+{
+    (void)own;
+    return (int32_t)fe_world_set_joint_targets(w, &h->joint, (void *)room, 0, 1);
+}
+static int32_t call_139(fe_world *w, const handles *own, const handles *h)
+{
+    (void)own;
+    return (int32_t)fe_world_set_joint_motor_speeds(w, &h->joint, (void *)room, 0, 1);
+}
+static int32_t call_140(fe_world *w, const handles *own, const handles *h)
+{
+    (void)own;
+    return (int32_t)fe_world_add_joint_forces(w, &h->joint, (void *)room, 0, 1);
+}
 
 typedef struct call {
     const char *name;
@@ -906,6 +931,11 @@ static const call calls[] = {
     {"fe_world_get_velocities", call_133},
     {"fe_world_set_velocities", call_134},
     {"fe_world_add_forces", call_135},
+    {"fe_world_get_joint_coordinates", call_136},
+    {"fe_world_get_joint_reactions", call_137},
+    {"fe_world_set_joint_targets", call_138},
+    {"fe_world_set_joint_motor_speeds", call_139},
+    {"fe_world_add_joint_forces", call_140},
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 

@@ -630,7 +630,7 @@ static int32_t read_bulk(fuzz *f)
 }
 
 // good floats first, so that some are accepted
-static void fill_room(fuzz *f)
+void fuzz_fill_room(fuzz *f)
 {
     float numbers[64];
     for (int32_t i = 0; i < COUNT(numbers); ++i) numbers[i] = (float)(i % 7) * 0.25f;
@@ -644,7 +644,7 @@ static int32_t write_bulk(fuzz *f)
     fuzz_span a;
     fe_body bodies[40];
     uint8_t which = fuzz_byte(f) % 3;
-    fill_room(f);
+    fuzz_fill_room(f);
     fuzz_array(f, which == 0 ? sizeof(fe_transform) : 24, &a);
     for (int32_t i = 0; i < COUNT(bodies); ++i) bodies[i] = i < 3 ? fuzz_body(f) : f->bodies[i % FUZZ_HANDLES];
     if (which == 0) {
@@ -747,5 +747,7 @@ const fuzz_call fuzz_calls[] = {
     {"fe_joint_set_user_data", fuzz_name_joint, 0},
     {"fe_joint_get_state and such", fuzz_read_joint, 0},
     {"lists and events of joints", fuzz_list_joints, 0},
+    {"bulk reads of joints", fuzz_read_joints, 0},
+    {"bulk writes of joints", fuzz_write_joints, 1},
 };
 const int32_t fuzz_call_count = COUNT(fuzz_calls);

@@ -237,3 +237,30 @@ int32_t fuzz_list_joints(fuzz *f)
         return fe_world_get_joint_events(f->world, a.data, a.stride, a.count);
     }
 }
+
+// ---- many at once ---------------------------------------------------------------------------------------------------
+int32_t fuzz_read_joints(fuzz *f)
+{
+    fuzz_span a;
+    fe_joint joints[40];
+    const uint8_t which = fuzz_byte(f) % 2;
+    fuzz_array(f, which ? 24 : 8, &a);
+    for (int32_t i = 0; i < (int32_t)(sizeof joints / sizeof *joints); ++i)
+        joints[i] = i < 3 ? some_joint(f) : f->joints[i % FUZZ_HANDLES];
+    if (which) return fe_world_get_joint_reactions(f->world, joints, a.data, a.stride, a.count);
+    return fe_world_get_joint_coordinates(f->world, joints, a.data, a.stride, a.count);
+}
+
+int32_t fuzz_write_joints(fuzz *f)
+{
+    fuzz_span a;
+    fe_joint joints[40];
+    const uint8_t which = fuzz_byte(f) % 3;
+    fuzz_fill_room(f);
+    fuzz_array(f, sizeof(float), &a);
+    for (int32_t i = 0; i < (int32_t)(sizeof joints / sizeof *joints); ++i)
+        joints[i] = i < 3 ? some_joint(f) : f->joints[i % FUZZ_HANDLES];
+    if (which == 0) return fe_world_set_joint_targets(f->world, joints, a.data, a.stride, a.count);
+    if (which == 1) return fe_world_set_joint_motor_speeds(f->world, joints, a.data, a.stride, a.count);
+    return fe_world_add_joint_forces(f->world, joints, a.data, a.stride, a.count);
+}

@@ -68,6 +68,7 @@ static inline const void *or_null(fuzz *f, const void *pointer) { return fuzz_by
 
 // fuzz_calls.c
 fe_geometry fuzz_geometry(fuzz *f);
+void fuzz_fill_room(fuzz *f); // with floats most of which any call takes
 // fuzz_pairs.c
 int32_t fuzz_set_filter(fuzz *f);
 int32_t fuzz_judge_shape(fuzz *f);
@@ -93,5 +94,7 @@ int32_t fuzz_name_joint(fuzz *f);
 int32_t fuzz_destroy_joint(fuzz *f);
 int32_t fuzz_read_joint(fuzz *f);
 int32_t fuzz_list_joints(fuzz *f);
+int32_t fuzz_read_joints(fuzz *f);
+int32_t fuzz_write_joints(fuzz *f);
 
 #endif

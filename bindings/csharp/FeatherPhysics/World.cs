@@ -449,5 +449,53 @@ namespace FeatherPhysics
                 Native.world_add_forces(P, b, f, 0, bodies.Length);
             GC.KeepAlive(this);
         }
+
+        /// <summary>Angle, translation or length along the free axis of each joint, rad or m, then its rate: 2 floats a
+        /// joint. A ball or fixed joint has no free axis: 0, 0.</summary>
+        public void GetJointCoordinates(ReadOnlySpan<JointHandle> joints, Span<float> coordinates)
+        {
+            CheckLength(2 * joints.Length, coordinates.Length, "World.GetJointCoordinates", "coordinates");
+            fixed (JointHandle* j = &MemoryMarshal.GetReference(joints))
+            fixed (float* c = &MemoryMarshal.GetReference(coordinates))
+                Native.world_get_joint_coordinates(P, j, c, 0, joints.Length);
+            GC.KeepAlive(this);
+        }
+        /// <summary>Force, N, and torque, N m, that hold each joint.</summary>
+        public void GetJointReactions(ReadOnlySpan<JointHandle> joints, Span<LinearAngular> reactions)
+        {
+            CheckLength(joints.Length, reactions.Length, "World.GetJointReactions", "reactions");
+            fixed (JointHandle* j = &MemoryMarshal.GetReference(joints))
+            fixed (LinearAngular* r = &MemoryMarshal.GetReference(reactions))
+                Native.world_get_joint_reactions(P, j, r, 0, joints.Length);
+            GC.KeepAlive(this);
+        }
+        /// <summary>Targets of the springs, rad or m. All or none.</summary>
+        public void SetJointTargets(ReadOnlySpan<JointHandle> joints, ReadOnlySpan<float> targets)
+        {
+            CheckLength(joints.Length, targets.Length, "World.SetJointTargets", "targets");
+            fixed (JointHandle* j = &MemoryMarshal.GetReference(joints))
+            fixed (float* t = &MemoryMarshal.GetReference(targets))
+                Native.world_set_joint_targets(P, j, t, 0, joints.Length);
+            GC.KeepAlive(this);
+        }
+        /// <summary>Speeds of the motors, rad/s or m/s. All or none.</summary>
+        public void SetJointMotorSpeeds(ReadOnlySpan<JointHandle> joints, ReadOnlySpan<float> speeds)
+        {
+            CheckLength(joints.Length, speeds.Length, "World.SetJointMotorSpeeds", "speeds");
+            fixed (JointHandle* j = &MemoryMarshal.GetReference(joints))
+            fixed (float* s = &MemoryMarshal.GetReference(speeds))
+                Native.world_set_joint_motor_speeds(P, j, s, 0, joints.Length);
+            GC.KeepAlive(this);
+        }
+        /// <summary>A torque about the axis on B, N m, or a force along it, N, and the opposite on A, during the next
+        /// step. All or none.</summary>
+        public void AddJointForces(ReadOnlySpan<JointHandle> joints, ReadOnlySpan<float> forces)
+        {
+            CheckLength(joints.Length, forces.Length, "World.AddJointForces", "forces");
+            fixed (JointHandle* j = &MemoryMarshal.GetReference(joints))
+            fixed (float* f = &MemoryMarshal.GetReference(forces))
+                Native.world_add_joint_forces(P, j, f, 0, joints.Length);
+            GC.KeepAlive(this);
+        }
     }
 }

@@ -1050,6 +1050,61 @@ namespace FeatherPhysics.Tests
             }
         }
 
+        public static void Many_joints_at_once_are_as_one_by_one()
+        {
+            using (World world = new World(), other = new World())
+            {
+                JointHandle[] joints = ChainOfHinges(world), alone = ChainOfHinges(other);
+                float[] speeds = { 1, -2, 3 }, targets = { 0.1f, 0.2f, -0.3f }, coordinates = new float[6];
+                world.SetJointMotorSpeeds(joints, speeds);
+                world.SetJointTargets(joints, targets);
+                world.AddJointForces(joints, speeds);
+                world.AddJointForces(joints, new float[3]);
+                for (int i = 0; i < 3; ++i)
+                {
+                    other[alone[i]].SetMotorSpeed(Dof.AngularX, speeds[i]);
+                    other[alone[i]].SetTarget(Dof.AngularX, targets[i]);
+                }
+                other.AddJointForces(alone, speeds);
+                world.Step(Dt);
+                other.Step(Dt);
+                Check.Same(world.Hash, other.Hash, "hash");
+                world.GetJointCoordinates(joints, coordinates);
+                LinearAngular[] reactions = new LinearAngular[3];
+                world.GetJointReactions(joints, reactions);
+                for (int i = 0; i < 3; ++i)
+                {
+                    JointState state = world[joints[i]].State;
+                    Check.Same(coordinates[2 * i], state.Angle, "angle");
+                    Check.Same(coordinates[2 * i + 1], state.AngularVelocity.X, "rate");
+                    Vector3 force, torque;
+                    world[joints[i]].GetReaction(out force, out torque);
+                    Check.Same(reactions[i].Linear, force, "force");
+                    Check.Same(reactions[i].Angular, torque, "torque");
+                }
+                Check.Throws<BadArgumentException>(() => world.GetJointCoordinates(joints, new float[5]),
+                    "coordinates has 5");
+                Check.Throws<BadArgumentException>(() => world.SetJointTargets(joints, new float[2]), "targets has 2");
+                targets[1] = float.NaN;
+                Check.Throws<BadArgumentException>(() => world.SetJointTargets(joints, targets), "values[1]");
+            }
+        }
+
+        private static JointHandle[] ChainOfHinges(World world)
+        {
+            JointHandle[] joints = new JointHandle[3];
+            Body last = world.CreateBody(new BodyDef { Type = BodyType.Static });
+            for (int i = 0; i < 3; ++i)
+            {
+                Body next = world.CreateBody(new BodyDef { Position = new DVec3(i + 1, 0, 0) });
+                next.AddBox(0.4f, 0.1f, 0.1f);
+                joints[i] = world.CreateHingeJoint(last, next, new DVec3(i + 0.5, 0, 0), Vector3.UnitZ,
+                    new HingeJointDef { MotorMax = 50, SpringHertz = 2 });
+                last = next;
+            }
+            return joints;
+        }
+
         public static void Many_bodies_at_once_are_as_one_by_one()
         {
             using (World world = new World())

@@ -30,6 +30,7 @@ local ARRAYS = {
     rays = 'records(ffi.typeof("fe_ray[?]"), 6, put_ray, %s, count, "rays")',
     paths = 'records(ffi.typeof("fe_path[?]"), 10, put_path, %s, count, "paths")',
     floats = 'floats(%s, 6, count, "floats")',
+    values = 'floats(%s, 1, count, "values")',
 }
 local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store", fe_history = "history" }
 local TABLES = {
@@ -148,7 +149,8 @@ end
 local function write_floats(f, p)
     local length = "6 * count"
     if p.name == "out_heights" then length = ("math.max(a%d * a%d, 0)"):format(p.index - 2, p.index - 1)
-    elseif f.name:find("transforms_f32") then length = "7 * count" end
+    elseif f.name:find("transforms_f32") then length = "7 * count"
+    elseif f.name:find("joint_coordinates") then length = "2 * count" end
     add(f.before, "local n%d = %s", p.index, length)
     add(f.before, 'local %s = ffi.new("float[?]", n%d + 1)', p.o, p.index)
     add(f.call, p.o)

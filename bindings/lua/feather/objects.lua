@@ -16,7 +16,7 @@ for name, class in pairs(objects) do
         return self.id and string.format("%s %.0f", class.__name, self.id) or class.__name
     end
 end
-local Body = objects.Body
+local Body, Joint = objects.Body, objects.Joint
 
 -- The object of a handle; nil for 0, which is the world's end of a joint.
 function objects.of(world, class, id)
@@ -60,14 +60,16 @@ function objects.handle(world, thing, class)
     return thing.id
 end
 
--- Those of a table of bodies; a table of handles is one already.
-function objects.handles(world, bodies)
-    if type(bodies) ~= "table" then fail("a table of bodies is needed, not a %s", type(bodies)) end
-    if type(bodies[1]) == "number" then return bodies end
+-- Those of a table of things of a class; a table of handles is one already.
+local function ids_of(world, things, class, words)
+    if type(things) ~= "table" then fail("a table of %s is needed, not a %s", words, type(things)) end
+    if type(things[1]) == "number" then return things end
     local ids = {}
-    for i = 1, #bodies do ids[i] = objects.handle(world, bodies[i], Body) end
+    for i = 1, #things do ids[i] = objects.handle(world, things[i], class) end
     return ids
 end
+function objects.handles(world, bodies) return ids_of(world, bodies, Body, "bodies") end
+function objects.joint_handles(world, joints) return ids_of(world, joints, Joint, "joints") end
 
 -- Vectors go to the core in tables that are used again and again.
 local vector = { 0, 0, 0 }

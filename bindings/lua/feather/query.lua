@@ -5,6 +5,7 @@ local objects = require("feather.objects")
 local options = require("feather.options")
 local shapes = require("feather.shape")
 local core, of, all, handles = native.core, objects.of, objects.all, objects.handles
+local joint_handles = objects.joint_handles
 local geometry, pose, xyz, xyz2 = shapes.geometry, objects.pose, objects.xyz, objects.xyz2
 local World, Body, Shape = objects.World, objects.Body, objects.Shape
 
@@ -167,6 +168,27 @@ function World:getVelocities(bodies)
 end
 function World:setVelocities(bodies, numbers) core.world_set_velocities(self.native, handles(self, bodies), numbers) end
 function World:addForces(bodies, numbers) core.world_add_forces(self.native, handles(self, bodies), numbers) end
+-- ---- many joints, a table of them or of their handles, along the free axis of each ---------------------------------
+
+-- angle or translation, and its rate: 2 numbers a joint
+function World:getJointCoordinates(joints)
+    return core.world_get_joint_coordinates(self.native, joint_handles(self, joints))
+end
+-- force and torque: 6 numbers a joint
+function World:getJointReactions(joints)
+    return core.world_get_joint_reactions(self.native, joint_handles(self, joints))
+end
+-- a number a joint, all or none
+function World:setJointTargets(joints, targets)
+    core.world_set_joint_targets(self.native, joint_handles(self, joints), targets)
+end
+function World:setJointMotorSpeeds(joints, speeds)
+    core.world_set_joint_motor_speeds(self.native, joint_handles(self, joints), speeds)
+end
+function World:addJointForces(joints, forces)
+    core.world_add_joint_forces(self.native, joint_handles(self, joints), forces)
+end
+
 -- the bodies that the last step moved, and 7 numbers for each
 function World:getMoved()
     local _, ids, numbers = core.world_get_moved(self.native)

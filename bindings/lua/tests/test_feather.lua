@@ -317,12 +317,33 @@ function TestPhysics.testBulk()
     world:setVelocities({ ball.id }, { 1, 2, 3, 0, 0, 0 })
     lu.assertEquals(world:getVelocities({ ball }), { 1, 2, 3, 0, 0, 0 })
     world:addForces({ ball }, { 0, 0, 0, 0, 0, 0 })
+    lu.assertErrorMsgContains("1 records where the other table has 0", world.addForces, world, {}, { 0, 0, 0, 0, 0, 0 })
     world:update(STEP)
     local moved, numbers = world:getMoved()
     lu.assertIs(moved[1], ball)
     lu.assertEquals(#numbers, 7)
     world:destroyBodies({ ball })
     lu.assertEquals(#world:getBodies(), 1)
+end
+
+function TestPhysics.testManyJoints()
+    local world, floor, ball = scene()
+    local hinge = world:newHingeJoint({
+        bodyA = floor, bodyB = ball, point = { 0, 4, 0 }, axis = { 0, 0, 1 }, motorMax = 1e6, springHertz = 1,
+    })
+    world:setJointMotorSpeeds({ hinge }, { 2 })
+    world:setJointTargets({ hinge.id }, { 0.5 })
+    world:addJointForces({ hinge }, { 3 })
+    local made = hinge:getDefinition()
+    lu.assertEquals({ made.motorSpeed, made.target }, { 2, 0.5 })
+    world:update(STEP)
+    local state = hinge:getState()
+    local numbers = world:getJointCoordinates({ hinge })
+    lu.assertEquals(numbers, { state.angle, state.angularVelocity[1] })
+    lu.assertTrue(numbers[1] > 0)
+    lu.assertEquals(#world:getJointReactions({ hinge, hinge }), 12)
+    lu.assertErrorMsgContains("fe_world_set_joint_targets", world.setJointTargets, world, { hinge }, { 4 })
+    lu.assertErrorMsgContains("a table of joints", world.setJointTargets, world, 3, { 4 })
 end
 
 function TestPhysics.testSettings()

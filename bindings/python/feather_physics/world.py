@@ -780,6 +780,38 @@ class World:
         """Force, N, at the centre, and torque, N m, from a buffer of 6 float32 a body, during the next step."""
         _flat.world_add_forces(self._capsule, self._ids(bodies), forces)
 
+    # ---- many joints, along the free axis of each. Joints are a sequence of Joint or a buffer of handles ----
+
+    def joint_coordinates(self, joints: Any, out: Any = None) -> Any:
+        """Angle, translation or length, rad or m, and its rate, 2 float32 a joint, like transforms(). A ball or fixed
+        joint has no free axis: 0, 0."""
+        ids = self._joint_ids(joints)
+        if out is None:
+            out = _floats(ids, 2)
+        _flat.world_get_joint_coordinates(self._capsule, ids, out)
+        return out
+
+    def joint_reactions(self, joints: Any, out: Any = None) -> Any:
+        """Force, N, and torque, N m, that hold each joint, 6 float32 a joint, like transforms()."""
+        ids = self._joint_ids(joints)
+        if out is None:
+            out = _floats(ids, 6)
+        _flat.world_get_joint_reactions(self._capsule, ids, out)
+        return out
+
+    def set_joint_targets(self, joints: Any, targets: Any) -> None:
+        """Targets of the springs, rad or m, from a buffer of a float32 a joint. All or none."""
+        _flat.world_set_joint_targets(self._capsule, self._joint_ids(joints), targets)
+
+    def set_joint_motor_speeds(self, joints: Any, speeds: Any) -> None:
+        """Speeds of the motors, rad/s or m/s, from a buffer of a float32 a joint. All or none."""
+        _flat.world_set_joint_motor_speeds(self._capsule, self._joint_ids(joints), speeds)
+
+    def add_joint_forces(self, joints: Any, forces: Any) -> None:
+        """A torque about the axis on B, N m, or a force along it, N, and the opposite on A, during the next step, from a
+        buffer of a float32 a joint. All or none."""
+        _flat.world_add_joint_forces(self._capsule, self._joint_ids(joints), forces)
+
     def exact_transforms(self, out: Any = None, *, bodies: Any = None) -> Any:
         """Position as 3 doubles and rotation as 4 floats, 40 bytes a body (see records.TRANSFORM): fills `out` or
         makes a bytearray."""
@@ -883,6 +915,11 @@ class World:
         if isinstance(bodies, (list, tuple)):
             return array("Q", [handle_of(self, body, Body) for body in bodies])
         return bodies
+
+    def _joint_ids(self, joints: Any) -> Any:
+        if isinstance(joints, (list, tuple)):
+            return array("Q", [handle_of(self, joint, Joint) for joint in joints])
+        return joints
 
     def _filter(self, mask: int, triggers: bool, exclude: Any) -> Optional[Tuple[int, int, Any]]:
         if mask == ALL_LAYERS and not triggers and exclude == ():

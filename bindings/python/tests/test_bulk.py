@@ -6,7 +6,7 @@ from typing import Any, Callable
 import numpy as np
 import pytest
 
-from feather_physics import Sphere, World, records
+from feather_physics import InvalidArgumentError, Sphere, StaleHandleError, World, records
 
 COUNT = 50
 
@@ -52,6 +52,38 @@ def test_velocities_and_forces(many: World) -> None:
     assert np.allclose(np.asarray(many.velocities())[:, 0], 2, atol=1e-5)  # 60 N on 1 kg for 1/60 s
     moved, poses = many.moved()
     assert moved == ids and len(poses) == 40 * COUNT
+
+
+def test_many_joints_are_driven_at_once(world: World) -> None:
+    post = world.create_body("static")
+    arms = [world.create_body(position=(1, 2 * i, 0)) for i in range(3)]
+    for arm in arms:
+        arm.add_box(0.5, 0.1, 0.1)
+    hinges = [
+        world.create_hinge_joint(post, arm, (0, 2 * i, 0), (0, 0, 1), motor_max=1e6, spring_hertz=1.0)
+        for i, arm in enumerate(arms)
+    ]
+    ids = np.array([hinge.id for hinge in hinges], np.uint64)
+    world.set_joint_motor_speeds(hinges, np.float32([1, 2, 3]))
+    world.set_joint_targets(ids, array("f", [0.1, 0.2, 0.3]))
+    world.add_joint_forces(ids, np.float32([1, 1, 1]))
+    assert [hinge.definition.target for hinge in hinges] == pytest.approx([0.1, 0.2, 0.3])
+    world.step()
+    found = np.asarray(world.joint_coordinates(hinges))
+    assert found.shape == (3, 2) and (found[:, 0] > 0).all() and (np.diff(found[:, 1]) > 0).all()
+    out = np.zeros((3, 6), np.float32)
+    assert world.joint_reactions(ids, out) is out
+    force, torque = hinges[2].reaction
+    assert out[2].tolist() == [*force, *torque]
+    with pytest.raises(InvalidArgumentError, match=r"values\[1\]"):
+        world.set_joint_targets(hinges, np.float32([0, np.nan, 0]))
+    with pytest.raises(TypeError, match="values"):
+        world.set_joint_targets(hinges, np.float64([0, 0, 0]))
+    with pytest.raises(ValueError):
+        world.set_joint_motor_speeds(hinges, np.float32([0, 0]))
+    hinges[1].destroy()
+    with pytest.raises(StaleHandleError):
+        world.joint_coordinates(ids)
 
 
 def test_exact_transforms_keep_their_doubles(many: World) -> None:
