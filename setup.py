@@ -14,6 +14,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parent
+# what draws a world's picture; the rest of the folder is a program of its own
+PICTURE = sorted(f"tools/picture/{p.name}" for p in (ROOT / "tools/picture").glob("*.c") if p.name not in ("main.c", "scenes.c"))
 
 
 def version():
@@ -34,7 +36,7 @@ class BuildFlat(build_ext):
         wrapper = str(work / "flat.c")
         command = [os.environ.get("SWIG", "swig"), "-python", "-builtin", "-Iinclude", "-Ibindings", "-outdir", str(work), "-o", wrapper]
         subprocess.run([*command, "bindings/feather.i"], cwd=ROOT, check=True)
-        extension.sources = [wrapper]
+        extension.sources = [wrapper, *PICTURE]
         extension.extra_objects = [archive]
         super().build_extension(extension)
 
@@ -47,7 +49,7 @@ setup(
             "feather_physics._flat",
             sources=[],
             include_dirs=[str(ROOT / "include"), str(ROOT / "bindings")],
-            extra_compile_args=["-O2", "-g0", "-ffp-contract=off", "-Wno-unused-but-set-variable"],
+            extra_compile_args=["-O2", "-g0", "-ffp-contract=off", "-fvisibility=hidden", "-Wno-unused-but-set-variable"],
             extra_link_args=["-pthread", "-lm", *hidden],
         )
     ],

@@ -238,8 +238,10 @@ static void tell(const bench_scene *scene, crowd *crowds, int32_t count)
         crowd *c = &crowds[i];
         const double us = bench_stats_of(c->us, ROUNDS).median, wall = bench_stats_of(c->wall, ROUNDS).median;
         printf("  %-36s %9.2f %9.2f %8.2f %9.2f", c->name, us, wall, us / first, us / (double)scene->dt / 1e3);
-        if (c->kilobytes > 0) printf(" %9.1f", c->kilobytes);
-        else printf(" %9s", "-"); // the C library cannot tell
+        if (c->kilobytes > 0)
+            printf(" %9.1f", c->kilobytes);
+        else
+            printf(" %9s", "-"); // the C library cannot tell
         printf(" %9.1f", c->create_us);
         if (c->reset != NULL) printf(" %9.1f", c->reset_us);
         printf("\n");

@@ -27,6 +27,8 @@ missing_for_python() {
     python_has pytest || echo python3-pytest
     python_has numpy || echo python3-numpy
     python_has matplotlib || echo python3-matplotlib
+    python_has nbconvert || echo jupyter-nbconvert
+    python_has ipykernel || echo python3-ipykernel
     has mypy || echo mypy
 }
 

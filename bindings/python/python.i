@@ -3,6 +3,7 @@
 // worlds, pools and stores are capsules.
 %{
 #include "python/convert.h"
+#include "python/picture.h"
 %}
 %include "records.i"
 %init %{
@@ -17,6 +18,7 @@
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
+%native(picture) PyObject *flat_picture(PyObject *self, PyObject *arguments);
 %native(keep) PyObject *flat_keep(PyObject *self, PyObject *arguments);
 %{
 static PyObject *flat_set_error_classes(PyObject *self, PyObject *arguments)

@@ -6,6 +6,8 @@ SWIG ?= swig
 PYTHON_PACKAGE := $(BUILD)/python/feather_physics
 PYTHON_SOURCES := $(wildcard bindings/python/feather_physics/*)
 PYTHON_FLAGS = $(shell $(PYTHON) -c 'import sysconfig; print("-I" + sysconfig.get_paths()["include"])')
+# what draws a world's picture
+PYTHON_PICTURE := $(filter-out %/scenes.o,$(PICTURE_PARTS))
 # SWIG's own code, not ours
 WRAPPER_FLAGS = -std=gnu11 -O2 -fPIC -pthread -ffp-contract=off -Wno-unused-but-set-variable -Iinclude -Ibindings
 
@@ -15,9 +17,9 @@ python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/p
 $(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/python/python.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
-$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC)
+$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h bindings/python/picture.h $(PYTHON_PICTURE) $(STATIC)
 	@mkdir -p $(@D)
-	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(PYTHON_PICTURE) $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%
 	@mkdir -p $(@D)
 	@cp $< $@

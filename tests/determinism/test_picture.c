@@ -115,6 +115,39 @@ static void a_box_on_a_floor_is_seen_with_its_shadow(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// Orange is what is awake, as above
+static int32_t is_awake(const uint8_t *rgb, int32_t x, int32_t y)
+{
+    pixel p = pixel_at(rgb, x, y);
+    return p.red > p.blue + 40;
+}
+
+// Rows of boxes along every axis, from above and from below, and one that fell for a minute
+static void a_fitted_view_shows_all_that_moves(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    const fe_vec3 from[] = {{0.6f, 0.45f, 1.0f}, {1, 0, 0}, {-0.2f, 3, 0.1f}, {0, -1, 2}};
+    for (int32_t i = 0; i < 4; ++i) {
+        picture_view view = {.focal = 0.5 + 0.5 * i, .sun = {-1, 1, 0.5f}, .parts = FE_DRAW_SHAPES, .scale = 1};
+        fe_world *world;
+        FE_TRUE(fe_world_create(NULL, &world) == FE_OK);
+        for (int32_t k = 0; k < 20; ++k) put_box(world, FE_BODY_DYNAMIC, 3.0 * k, 1.0f);
+        put_box(world, FE_BODY_DYNAMIC, -18000, 1.0f);
+        FE_TRUE(picture_fit(world, from[i], WIDTH, HEIGHT, &view) == FE_OK);
+        FE_TRUE(picture_render(world, &view, WIDTH, HEIGHT, rgb) == FE_OK);
+        int32_t seen = 0, at_the_edge = 0;
+        for (int32_t y = 0; y < HEIGHT; ++y)
+            for (int32_t x = 0; x < WIDTH; ++x) {
+                seen += is_awake(rgb, x, y);
+                at_the_edge += is_awake(rgb, x, y) && (x == 0 || y == 0 || x == WIDTH - 1 || y == HEIGHT - 1);
+            }
+        assert_int_equal(at_the_edge, 0);
+        assert_true(seen > HEIGHT); // it fills the picture's height, 60 m of it with boxes of 2 m
+        FE_TRUE(fe_world_destroy(world) == FE_OK);
+    }
+}
+
 static void sizes_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -246,6 +279,7 @@ int main(void)
         cmocka_unit_test(pictures_have_the_recorded_hashes),
         cmocka_unit_test(workers_and_kernels_do_not_show),
         cmocka_unit_test(a_box_on_a_floor_is_seen_with_its_shadow),
+        cmocka_unit_test(a_fitted_view_shows_all_that_moves),
         cmocka_unit_test(sizes_out_of_range_are_refused),
         cmocka_unit_test(what_is_packed_comes_back),
     };

@@ -20,6 +20,11 @@ typedef struct picture_view {
 
 enum { PICTURE_LEAST = 16, PICTURE_MOST = 4096 }; // pixels of a side
 
+/// Where all that may move is seen, as near as it fits; of a world without such bodies, all that stands. Bodies that
+/// fell far off are left out. Sets the eye, the target and the radius of a view whose focal distance is set.
+/// @param toward_eye  from the target, any length but zero, not upright
+int32_t picture_fit(const fe_world *world, fe_vec3 toward_eye, int32_t width, int32_t height, picture_view *out);
+
 /// Draws a world as red, green and blue, a byte each, row by row.
 /// @param out_rgb  3 width height bytes
 /// @return FE_OK; FE_ERROR_ARGUMENT for a size out of range, FE_ERROR_MEMORY, or what the draw calls say

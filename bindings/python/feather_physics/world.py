@@ -8,7 +8,7 @@ from array import array
 from types import TracebackType
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
 
-from . import _flat, records
+from . import _flat, picture, records
 from ._flat import Bounds, Vec3
 from .history import History
 from .objects import Body, Joint, Shape, handle_of
@@ -831,6 +831,28 @@ class World:
             _flat.world_draw_instances,
         )[word(DRAWN, kind, "kind")]
         return draw(self._capsule, self._draw_options(options), out)
+
+    def picture(
+        self,
+        width: int = 800,
+        height: int = 450,
+        *,
+        eye: Optional[Vector] = None,
+        target: Optional[Vector] = None,
+        direction: Vector = picture.FROM,
+        parts: Iterable[str] = ("shapes",),
+    ) -> bytes:
+        """A PNG of the world, drawn without a GPU: Path("pile.png").write_bytes(world.picture()). All that may move is in
+        it, seen from `direction` (from the bodies to the eye, y is up); or what is seen from `eye` towards `target`, m.
+        `parts` as for draw_lines(): ("shapes", "joints", "contacts") shows lines too. The same world gives the same
+        bytes on every machine. Other Python threads run meanwhile."""
+        return picture.take(self._capsule, width, height, eye, target, direction, parts)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        if self._closed:
+            return "World, closed"
+        return picture.html(self.picture(), f"World of {self.counters.bodies} bodies")
 
     # ---- within the package ----
 

@@ -64,7 +64,7 @@ def test_the_table_of_the_documentation_has_every_function() -> None:
 def test_installation_of_the_documentation_runs_without_the_build_tree(tmp_path: Path) -> None:
     """A copy of the sources; the core is the one that is built already (FEATHER_ARCHIVE), all else as it is written."""
     copy = tmp_path / "feather"
-    for name in ("include", "src", "bindings", "examples"):
+    for name in ("include", "src", "bindings", "examples", "tools/picture"):
         shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info", "obj", "bin"))
     for name in ("Makefile", "setup.py", "pyproject.toml", "LICENSE"):
         shutil.copy(ROOT / name, copy / name)
