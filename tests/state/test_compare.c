@@ -60,7 +60,7 @@ static void expect(fe_difference d, const char *kind, const char *field, fe_hand
 static void the_same_state_has_no_difference(void **state)
 {
     (void)state;
-    fe_world *world = make(&script_joints, 40);
+    fe_world *world = make(&script_crowd, 45); // with events: their handles have the world's number
     bytes a = save(world);
     fe_world *twin = load(a, 0), *other = load(a, 1);
     bytes b = save(twin), c = save(other);
@@ -113,6 +113,11 @@ static void what_is_missing_is_named(void **state)
     fe_difference d = difference_of_worlds(world, twin);
     expect(d, "body", "there", made, 0);
     FE_TRUE(strcmp(d.a, "no") == 0 && strcmp(d.b, "yes") == 0);
+    fe_world *other = load(a, 1); // what only the second world has goes by the first one's number too
+    fe_body as_other;
+    FE_TRUE(fe_body_create(other, &def, &as_other) == FE_OK && as_other != made);
+    expect(difference_of_worlds(world, other), "body", "there", made, 0);
+    FE_TRUE(fe_world_destroy(other) == FE_OK);
     FE_TRUE(fe_body_destroy(twin, bodies[5]) == FE_OK);
     d = difference_of_worlds(world, twin);
     FE_TRUE(strcmp(d.kind, "body") == 0); // one that it touched is another now, or it is gone itself

@@ -194,6 +194,17 @@ static void saving_a_difference_checks_its_base(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+static bytes with_other_gravity(bytes of)
+{
+    fe_world *world;
+    FE_TRUE(fe_world_create(NULL, &world) == FE_OK);
+    FE_TRUE(fe_world_restore(world, NULL, of.data, of.size) == FE_OK);
+    FE_TRUE(fe_world_set_gravity(world, &(fe_vec3){0, -1, 0}) == FE_OK);
+    bytes made = save(world);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+    return made;
+}
+
 static void a_difference_needs_its_own_base(void **state)
 {
     (void)state;
@@ -201,7 +212,7 @@ static void a_difference_needs_its_own_base(void **state)
     fe_world *world = played(&p, &script_brief, 30);
     bytes base = save(world);
     play_until(&p, &script_brief, 31);
-    bytes other = save(world), diff = save_diff(world, base), none = {NULL, 0}, after;
+    bytes other = save(world), diff = save_diff(world, base), none = {NULL, 0}, after, alike;
     fe_restore_options options;
     fe_restore_options_init(&options, sizeof options);
     FE_TRUE(fe_world_restore(world, NULL, diff.data, diff.size) == FE_ERROR_DATA);
@@ -211,6 +222,10 @@ static void a_difference_needs_its_own_base(void **state)
     FE_TRUE(restore(world, diff, (bytes){base.data, base.size - 8}) == FE_ERROR_DATA);
     FE_TRUE(restore(world, diff, (bytes){base.data, 4}) == FE_ERROR_DATA);
     FE_TRUE(restore(world, diff, (bytes){base.data, -1}) == FE_ERROR_ARGUMENT);
+    alike = with_other_gravity(base);
+    FE_TRUE(alike.size == base.size && restore(world, diff, alike) == FE_ERROR_DATA);
+    FE_TRUE(strstr(fe_last_error(), "to another base") != NULL);
+    free(alike.data);
     base.data[base.size / 2] ^= 1; // its sums say that it is another
     FE_TRUE(restore(world, diff, base) == FE_ERROR_DATA);
     base.data[base.size / 2] ^= 1;
