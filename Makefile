@@ -6,6 +6,7 @@
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
 #   make test-long  in an hour and a half: 30 minutes of fuzz, the random tests with their full numbers (LONG=pattern)
 #   make test-state what of that is about snapshots: 1000 random moments of 100 random scenes, 90 000 altered snapshots
+#   make test-many  what of that is about many worlds: 1000 batches beside loops, 1 000 000 resets
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets,
 #                   with clang's libFuzzer and sanitizers
@@ -114,7 +115,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/$(if $(WINDOWS),libfeather.dll.a,libfeather.so)
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples gallery tests read-tests check test test-long test-state fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples gallery tests read-tests check test test-long test-state test-many fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -213,11 +214,11 @@ tests: $(TEST_PROGRAMS)
 # The warnings of a compiler about them, without building them
 read-tests:
 	$(RUN)$(CC) $(C_FLAGS) -Itests $(STRICT) -fsyntax-only $(TEST_SOURCES)
-check test test-long test-state: export MAKE := $(MAKE)
-check test test-long test-state: export CC := $(CC)
-check test test-long test-state: export CXX := $(CXX)
-check test test-long test-state: export CFLAGS := $(CFLAGS)
-check test test-long test-state: export LDFLAGS := $(LDFLAGS)
+check test test-long test-state test-many: export MAKE := $(MAKE)
+check test test-long test-state test-many: export CC := $(CC)
+check test test-long test-state test-many: export CXX := $(CXX)
+check test test-long test-state test-many: export CFLAGS := $(CFLAGS)
+check test test-long test-state test-many: export LDFLAGS := $(LDFLAGS)
 check:
 	@tools/deps.sh check
 	@+tests/check $(BUILD)
@@ -229,6 +230,8 @@ test-long:
 	@+tests/long '$(LONG)'
 test-state:
 	@+tests/long '^state/'
+test-many:
+	@+tests/long '^many/'
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz, or -cooked, again.

@@ -1,5 +1,8 @@
 // test_batch.c - clones, states and batches: each world of a batch is, step by step, what it would be alone, whatever
 // the workers, the block, the mask and the SIMD set.
+//
+//   test_batch          what belongs to every run
+//   test_batch 1000     besides, a batch beside a loop at so many random moments, and a thousand times as many resets
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
@@ -16,10 +19,10 @@ enum { SETS = 1, CASES = 1 }; // of SIMD sets; of scripts that a batch plays
 #else
 enum { SETS = 5, CASES = 4 };
 #endif
+static int32_t whole; // random moments, 0: none
 static const int32_t sets[] = {FE_SIMD_PLAIN, FE_SIMD_SSE2, FE_SIMD_AVX2, FE_SIMD_AVX512, FE_SIMD_NEON};
 
-// ---- worlds to start from
-// --------------------------------------------------------------------------------------------
+// ---- worlds to start from -----------------------------------------------------------------------------------------
 static fe_world *play_world(const script *s, int32_t steps, play *p)
 {
     fe_world *world;
@@ -116,8 +119,7 @@ static int32_t has_simd(int32_t simd)
     return 1;
 }
 
-// ---- clones and states
-// -----------------------------------------------------------------------------------------------
+// ---- clones and states --------------------------------------------------------------------------------------------
 static int32_t take_refusal(play *p, fe_result result)
 {
     if (result < 0 && result != FE_ERROR_STALE) fail_msg("step %d: %s", (int)p->step, fe_last_error());
@@ -197,8 +199,7 @@ CASE(joints, 40, 60)
 CASE(meshes, 40, 60)
 CASE(compounds, 40, 60)
 
-// ---- a batch is a loop
-// -----------------------------------------------------------------------------------------------
+// ---- a batch is a loop --------------------------------------------------------------------------------------------
 typedef struct course { // what both do: forces on some bodies, and who steps
     fe_body bodies[MOST_ITEMS];
     int32_t count;
@@ -250,21 +251,21 @@ static float *packed_forces(const course *c, float *out)
     return out;
 }
 
-static void is_a_loop(const script *s, int32_t at, int32_t workers, int32_t block, int32_t simd)
+static void is_a_loop(const script *s, int32_t at, int32_t workers, int32_t block, int32_t simd, int32_t calls)
 {
     static play p;
     static course c;
     static float forces[WORLDS * MOST_ITEMS * 6], poses[WORLDS * MOST_ITEMS * 7], pose[7];
     fe_world *world = play_world(s, at, &p), *alone[WORLDS];
     fe_batch *batch = make_batch(world, WORLDS, workers, block, simd);
-    int32_t results[WORLDS], steps = 9;
+    int32_t results[WORLDS];
     c.seed = 7u * (uint32_t)at;
     choose_bodies(&c, world);
     for (int32_t w = 0; w < WORLDS; ++w) OK(fe_world_clone(world, NULL, &alone[w]));
     fe_array input = array_of(c.bodies, c.count, FE_FIELD_FORCE, 6, forces),
              output = array_of(c.bodies, c.count, FE_FIELD_TRANSFORM, 7, poses);
     OK(fe_batch_bind(batch, &input, 1, &output, 1));
-    for (int32_t i = 0; i < steps; ++i) {
+    for (int32_t i = 0; i < calls; ++i) {
         int32_t each = 1 + i % 3;
         next(&c);
         packed_forces(&c, forces);
@@ -294,6 +295,8 @@ static void is_a_loop(const script *s, int32_t at, int32_t workers, int32_t bloc
     destroy(world);
 }
 
+enum { CALLS = 9 }; // of one, two and three steps
+
 static void a_batch_is_a_loop(void **state)
 {
     (void)state;
@@ -304,9 +307,27 @@ static void a_batch_is_a_loop(void **state)
     static const int32_t workers[] = {1, 2, 3, 8}, blocks[] = {0, 1, 5, 1 << 20};
     for (int32_t i = 0; i < CASES; ++i)
         for (int32_t k = 0; k < 4; ++k)
-            is_a_loop(cases[i].script, cases[i].at, workers[k], blocks[(i + k) % 4], FE_SIMD_AUTO);
+            is_a_loop(cases[i].script, cases[i].at, workers[k], blocks[(i + k) % 4], FE_SIMD_AUTO, CALLS);
     for (int32_t i = 0; i < SETS; ++i)
-        if (has_simd(sets[i])) is_a_loop(&script_joints, 30, 2, 0, sets[i]);
+        if (has_simd(sets[i])) is_a_loop(&script_joints, 30, 2, 0, sets[i], CALLS);
+}
+
+// Scripts, moments, workers, blocks and SIMD sets by chance, each for 200 steps
+static void a_batch_is_a_loop_at_random_moments(void **state)
+{
+    (void)state;
+    static const script *const scripts[] = {&script_brief, &script_joints,    &script_meshes, &script_terrain,
+                                            &script_fast,  &script_compounds, &script_solids, &script_scales};
+    static const int32_t workers[] = {1, 2, 3, 16};
+    static course chance = {.seed = 1};
+    enum { LONG = 100, MOST_BLOCK = 12, LATEST = 200 };
+    for (int32_t i = 0; i < whole; ++i) {
+        uint32_t drawn[5];
+        for (int32_t k = 0; k < 5; ++k) drawn[k] = (uint32_t)(1e6f * (draw(&chance) + 1.0f));
+        int32_t simd = sets[drawn[4] % SETS];
+        is_a_loop(scripts[drawn[0] % 8], (int32_t)(drawn[1] % LATEST), workers[drawn[2] % 4],
+                  (int32_t)(drawn[3] % MOST_BLOCK), has_simd(simd) ? simd : FE_SIMD_AUTO, LONG);
+    }
 }
 
 static void worlds_share_a_pool_and_go_their_own_ways(void **state)
@@ -332,8 +353,7 @@ static void worlds_share_a_pool_and_go_their_own_ways(void **state)
     destroy(own), destroy(world);
 }
 
-// ---- fields
-// ----------------------------------------------------------------------------------------------------------
+// ---- fields -------------------------------------------------------------------------------------------------------
 enum { JOINTS = 3 };
 typedef struct arm {
     fe_world *world;
@@ -549,8 +569,7 @@ static void what_is_written_is_read(void **state)
     destroy(world);
 }
 
-// ---- what fails, fails alone
-// -----------------------------------------------------------------------------------------
+// ---- what fails, fails alone --------------------------------------------------------------------------------------
 static void a_bad_row_fails_its_world(void **state)
 {
     (void)state;
@@ -844,8 +863,9 @@ static void memory_is_level(void **state)
         FE_TRUE(fe_batch_step(batch, DT, 3, NULL, NULL) == 0 && fe_batch_reset(batch, NULL, NULL, NULL) == 0);
     }
     int64_t bytes = c.bytes;
-    for (int32_t i = 0; i < 200; ++i) {
-        FE_TRUE(fe_batch_step(batch, DT, 3, NULL, NULL) == 0 && fe_batch_reset(batch, NULL, NULL, NULL) == 0);
+    for (int32_t i = 0; i < 200 + 1000 * whole; ++i) {
+        FE_TRUE(fe_batch_step(batch, DT, whole ? 1 : 3, NULL, NULL) == 0 &&
+                fe_batch_reset(batch, NULL, NULL, NULL) == 0);
         fe_state *taken;
         OK(fe_state_create(world_of(batch, 1), &allocator, &taken));
         OK(fe_state_destroy(taken));
@@ -856,8 +876,7 @@ static void memory_is_level(void **state)
     destroy(world);
 }
 
-// ---- arguments
-// -------------------------------------------------------------------------------------------------------
+// ---- arguments ----------------------------------------------------------------------------------------------------
 static void clones_and_states_are_checked(void **state)
 {
     (void)state;
@@ -978,8 +997,9 @@ static void arrays_are_checked(void **state)
     destroy(a.world);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc > 1) whole = atoi(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(brief_is_cloned),
         cmocka_unit_test(crowd_is_cloned),
@@ -990,6 +1010,7 @@ int main(void)
         cmocka_unit_test(meshes_is_cloned),
         cmocka_unit_test(compounds_is_cloned),
         cmocka_unit_test(a_batch_is_a_loop),
+        cmocka_unit_test(a_batch_is_a_loop_at_random_moments),
         cmocka_unit_test(worlds_share_a_pool_and_go_their_own_ways),
         cmocka_unit_test(fields_are_what_the_getters_say),
         cmocka_unit_test(fields_are_read_in_a_body_s_frame),
