@@ -36,8 +36,8 @@ package-deb: package-cores
 
 # a rock of the sources, and a game of LÖVE with the native library for each target
 package-lua: package-cores $(BUILD)/lua/core.c $(BUILD)/lua/feather/header.lua
-	$(RUN)tools/packages/lua $(BUILD) $(PACKAGES) $(PACKAGE_HOST)=$(SHARED) \
-	    $(foreach target,$(PACKAGE_CROSS),$(target)=$(PACKAGES)/core/$(target)/$(if $(filter win-%,$(target)),feather.dll,libfeather.so))
+	$(RUN)tools/packages/lua $(BUILD) $(PACKAGES) $(PACKAGE_HOST)=$(SHARED)=strip \
+	    $(foreach target,$(PACKAGE_CROSS),$(target)=$(PACKAGES)/core/$(target)/$(if $(filter win-%,$(target)),feather.dll,libfeather.so)=$(COMPILER_$(target):gcc=strip))
 
 # NuGet's package and Unity's, with the native library for each target
 package-csharp: package-cores $(CSHARP)/feather_csharp.c $(CSHARP)/source/Records.cs $(CSHARP_SOURCES:bindings/csharp/FeatherPhysics/%=$(CSHARP)/source/%)
