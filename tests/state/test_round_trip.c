@@ -193,9 +193,17 @@ static void worlds_go_on_from_random_moments(void **state)
     }
 }
 
+// A body that bore much, flew on, and landed again
+static void a_burden_ends_in_the_air(void **state)
+{
+    (void)state;
+    play_scene(21, 2);
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1) moment_count = atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_go_on_from_random_moments)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_burden_ends_in_the_air),
+                                       cmocka_unit_test(worlds_go_on_from_random_moments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
