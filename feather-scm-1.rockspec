@@ -10,7 +10,7 @@ description = {
 dependencies = { "lua >= 5.1, < 5.5" }
 build = {
     type = "command",
-    build_command = "make lua-rock LUA_INCDIR=$(LUA_INCDIR)",
+    build_command = "make -j4 lua-rock LUA_INCDIR=$(LUA_INCDIR)",
     install = {
         lua = {
             ["feather.init"] = "bindings/lua/feather/init.lua",
@@ -26,6 +26,7 @@ build = {
             ["feather.native"] = "bindings/lua/feather/native.lua",
             ["feather.objects"] = "bindings/lua/feather/objects.lua",
             ["feather.options"] = "bindings/lua/feather/options.lua",
+            ["feather.packed"] = "bindings/lua/feather/packed.lua",
             ["feather.query"] = "bindings/lua/feather/query.lua",
             ["feather.shape"] = "bindings/lua/feather/shape.lua",
             ["feather.history"] = "bindings/lua/feather/history.lua",

@@ -38,6 +38,7 @@ missing_for_csharp() {
     has python3 || echo python3
     has mono || echo mono-runtime
     has mcs || echo mono-mcs
+    has unzip || echo unzip
     test -e /usr/lib/mono/4.5/System.Numerics.dll || echo libmono-system-numerics4.0-cil
     test -e /usr/lib/mono/4.5/System.Numerics.Vectors.dll || echo libmono-system-numerics-vectors4.0-cil
 }

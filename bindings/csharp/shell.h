@@ -17,10 +17,19 @@ typedef struct fe_shell {
     atomic_int users; // the world, and its managed object
 } fe_shell;
 
+#ifdef _WIN32 // has no aligned_alloc, and its free takes no aligned block
+#include <malloc.h>
+static void *take_block(size_t size, size_t alignment) { return _aligned_malloc(size, alignment); }
+static void give_block(void *memory) { _aligned_free(memory); }
+#else
+static void *take_block(size_t size, size_t alignment) { return aligned_alloc(alignment, size); }
+static void give_block(void *memory) { free(memory); }
+#endif
+
 static void fe_shell_leave(fe_shell *shell)
 {
     if (!shell || atomic_fetch_sub(&shell->users, 1) != 1) return;
-    free(shell->world);
+    give_block(shell->world);
     free(shell);
 }
 
@@ -28,7 +37,7 @@ static void *shell_allocate(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
     if (size > SIZE_MAX - alignment) return NULL;
-    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+    return take_block((size_t)((size + alignment - 1) / alignment * alignment), (size_t)alignment);
 }
 
 static void shell_release(void *user, void *memory, uint64_t size)
@@ -36,7 +45,7 @@ static void shell_release(void *user, void *memory, uint64_t size)
     fe_shell *shell = user;
     (void)size;
     if (memory == shell->world) fe_shell_leave(shell);
-    else free(memory);
+    else give_block(memory);
 }
 
 // Without bytes an empty world, with bytes the one that they are of.

@@ -14,10 +14,10 @@ PACKAGE_CORES := $(PACKAGE_CROSS:%=$(PACKAGES)/core/%/libfeather.a)
 # What starts a make of its own may not meet the variables of this one.
 ALONE = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL CC='$(CC)' CFLAGS='$(CFLAGS)' LDFLAGS='$(LDFLAGS)'
 
-.PHONY: packages package-cores package-python package-deb test-packages
-packages: package-python package-deb
+.PHONY: packages package-cores package-python package-deb package-lua package-csharp test-packages
+packages: package-python package-deb package-lua package-csharp
 	@for target in $(filter-out $(PACKAGE_CROSS),$(PACKAGE_WANTED)); do echo "*** NOT PACKAGED: $$target ***"; done
-	@cd $(PACKAGES) && for file in python/*.* deb/*.deb; do echo "  $$(du -k "$$file" | cut -f1) KB $$file"; done
+	@cd $(PACKAGES) && for file in python/*.* deb/*.deb lua/*.* csharp/*.*; do echo "  $$(du -k "$$file" | cut -f1) KB $$file"; done
 
 package-cores: all $(PACKAGE_CORES)
 $(PACKAGES)/core/%/libfeather.a: FORCE
@@ -33,6 +33,16 @@ package-deb: package-cores
 	$(RUN)tools/packages/deb $(MAKE) $(BUILD) '$(CC)' $(PACKAGES)/deb
 	@set -e; $(foreach target,$(filter linux-%,$(PACKAGE_CROSS)),\
 	    tools/packages/deb $(MAKE) $(PACKAGES)/core/$(target) $(COMPILER_$(target)) $(PACKAGES)/deb;)
+
+# a rock of the sources, and a game of LÖVE with the native library for each target
+package-lua: package-cores $(BUILD)/lua/core.c $(BUILD)/lua/feather/header.lua
+	$(RUN)tools/packages/lua $(BUILD) $(PACKAGES) $(PACKAGE_HOST)=$(SHARED)=strip \
+	    $(foreach target,$(PACKAGE_CROSS),$(target)=$(PACKAGES)/core/$(target)/$(if $(filter win-%,$(target)),feather.dll,libfeather.so)=$(COMPILER_$(target):gcc=strip))
+
+# NuGet's package and Unity's, with the native library for each target
+package-csharp: package-cores $(CSHARP)/feather_csharp.c $(CSHARP)/source/Records.cs $(CSHARP_SOURCES:bindings/csharp/FeatherPhysics/%=$(CSHARP)/source/%)
+	$(RUN)tools/packages/csharp $(CSHARP) $(PACKAGES) $(VERSION) '$(PACKAGE_HOST)=$(STATIC)=$(CC)' \
+	    $(foreach target,$(PACKAGE_CROSS),$(target)=$(PACKAGES)/core/$(target)/libfeather.a=$(COMPILER_$(target)))
 
 test-packages:
 	@+tests/packages/run $(BUILD)/test-packages

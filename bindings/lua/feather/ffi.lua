@@ -4,17 +4,17 @@
 local ffi = require("ffi")
 local fail = require("feather.where").fail
 local header = require("feather.header")
+local packed = require("feather.packed")
 local write = require("feather.ffi_writer")
 if not pcall(ffi.typeof, "fe_vec3") then ffi.cdef(header) end -- a second time when package.loaded was cleared
 
--- FEATHER_LIBRARY, package.cpath, the folders of a game of LÖVE, the system's.
+-- FEATHER_LIBRARY, what a game of LÖVE holds, package.cpath, the folders of the game, the system's.
 local function library()
-    local path = os.getenv("FEATHER_LIBRARY")
+    local path = os.getenv("FEATHER_LIBRARY") or packed.path()
     if not path and package.searchpath then path = package.searchpath("libfeather", package.cpath) end
     local filesystem = type(love) == "table" and love.filesystem
-    local names = { Windows = "feather.dll", OSX = "libfeather.dylib" }
     for _, folder in ipairs(filesystem and { "getSource", "getSourceBaseDirectory", "getSaveDirectory" } or {}) do
-        local found = not path and filesystem[folder]() .. "/" .. (names[ffi.os] or "libfeather.so")
+        local found = not path and filesystem[folder]() .. "/" .. packed.name
         local file = found and io.open(found, "rb")
         if file then
             file:close()

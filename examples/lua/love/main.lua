@@ -1,5 +1,5 @@
--- A pile of balls and boxes for LÖVE: copy feather/ and libfeather.so beside this file, then run `love .` in this
--- folder. Space drops another body.
+-- A pile of balls and boxes for LÖVE: `make package-lua`, then `love build/packages/lua/game.love`. Space drops another
+-- body.
 --   love . 120         plays 120 steps without a window and prints where the highest body is
 local feather = require("feather")
 
