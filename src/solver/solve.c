@@ -512,14 +512,6 @@ static void note_marks(fe__solver *s, const fe__batch *b, fe__body *bodies, uint
     }
 }
 
-// Batches that take no notes: bodies that nothing touches, and large islands without joints. Without this a body that
-// bore much, flew on and lands again would count as one that has borne it for two steps.
-static void forget_burdens(const fe__solver *s, const fe__batch *b, fe__body *bodies)
-{
-    for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line)
-        if (s->body_of_line[line] >= 0) bodies[s->body_of_line[line]].flags &= ~(uint32_t)FE__BODY_BURDENED;
-}
-
 static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body *bodies, const uint32_t *found,
                         uint32_t joined)
 {
@@ -540,16 +532,10 @@ static void note_strain(fe__solver *s, fe__body *bodies)
     uint32_t *found = (uint32_t *)(void *)s->rows; // no longer in use
     for (int32_t i = 0; i < s->batch_count; ++i) any |= s->batches[i].pace;
     if (!any) return;
-    int32_t was_burdened = s->burdened;
     s->burdened = 0;
     memset(found, 0, sizeof *found * (size_t)s->island_count);
-    for (int32_t i = 0; i < s->batch_count; ++i) {
-        int32_t has_marks = i < s->batch_count - 1 && (i >= s->large_count || s->batches[i].joint_count);
-        if (has_marks)
-            note_marks(s, s->batches + i, bodies, found, joined);
-        else if (was_burdened)
-            forget_burdens(s, s->batches + i, bodies);
-    }
+    for (int32_t i = 0; i < s->batch_count - 1; ++i)
+        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, bodies, found, joined);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
         if (i >= s->large_count || s->batches[i].joint_count)
             s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);

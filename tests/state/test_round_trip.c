@@ -193,8 +193,8 @@ static void worlds_go_on_from_random_moments(void **state)
     }
 }
 
-// A body that bore much, flew on, and landed again
-static void a_burden_ends_in_the_air(void **state)
+// A body that bore much, fell asleep, and woke again
+static void a_burden_ends_in_sleep(void **state)
 {
     (void)state;
     play_scene(21, 2);
@@ -203,7 +203,7 @@ static void a_burden_ends_in_the_air(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) moment_count = atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_burden_ends_in_the_air),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_burden_ends_in_sleep),
                                        cmocka_unit_test(worlds_go_on_from_random_moments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
