@@ -117,19 +117,28 @@ def _import(name: str, package: str) -> Any:
         raise UnsupportedError(f"sweep: {name} is not there; install {package}") from error
 
 
-def _joblib(world: Optional[bytes]) -> Runner:
-    """The workers of joblib's own backend. Its pool is made anew when one of them is lost."""
-    joblib = _import("joblib", "joblib (Debian: python3-joblib)")
-    try:
-        loky = importlib.import_module("joblib.externals.loky")
-    except ImportError:
-        loky = importlib.import_module("loky")
+class _Joblib(Runner):
+    """The workers of joblib's own backend, which all that uses joblib in this process shares: none ends them."""
 
-    def make() -> Executor:
-        executor: Executor = loky.get_reusable_executor(max_workers=joblib.cpu_count())
+    def __init__(self, world: Optional[bytes]) -> None:
+        self._count = _import("joblib", "joblib (Debian: python3-joblib)").cpu_count()
+        try:
+            self._loky = importlib.import_module("joblib.externals.loky")
+        except ImportError:
+            self._loky = importlib.import_module("loky")
+        super().__init__(self._pool(), world)
+
+    def _pool(self) -> Executor:
+        """The one there is, or a new one where a worker was lost."""
+        executor: Executor = self._loky.get_reusable_executor(max_workers=self._count)
         return executor
 
-    return _Own(make, world)
+    def worker_count(self) -> int:
+        return int(self._count)
+
+    def renew(self) -> bool:
+        self.executor = self._pool()
+        return True
 
 
 def _processes(count: int, function: Callable[..., Any], world: Optional[bytes]) -> Runner:
@@ -159,7 +168,7 @@ def runner_for(executor: Any, function: Callable[..., Any], world: Optional[byte
         distributed = _import("distributed", "Dask's distributed (Debian: python3-distributed)")
         return _Dask(distributed.Client(executor), world, retries, is_own=True)
     if executor == "joblib":
-        return _joblib(world)
+        return _Joblib(world)
     if executor == "mpi":
         futures = _import("mpi4py.futures", "mpi4py (Debian: python3-mpi4py)")
         return _Own(futures.MPIPoolExecutor, world, can_renew=False)
