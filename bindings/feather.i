@@ -35,12 +35,15 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
-// Many worlds at once: for hosts in C.
-%rename("$ignore", regexmatch$name="^fe_(batch|state)(_(?!type$)[a-z_]+)?$") "";
+// Many worlds at once: for hosts in C; clones and states in Python too.
+%rename("$ignore", regexmatch$name="^fe_batch(_[a-z_]+)?$") "";
 %ignore fe_array;
 %ignore fe_array_init;
+#if !defined(SWIGPYTHON)
+%rename("$ignore", regexmatch$name="^fe_state(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_world_clone;
 %ignore fe_world_set_state;
+#endif
 
 #if !defined(SWIGPYTHON)
 // Recordings: for hosts in C, and in Python.

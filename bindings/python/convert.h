@@ -51,6 +51,7 @@ static const char world_name[] = "feather_physics.world";
 static const char pool_name[] = "feather_physics.pool";
 static const char history_name[] = "feather_physics.history";
 static const char store_name[] = "feather_physics.store";
+static const char state_name[] = "feather_physics.state";
 static const char recorder_name[] = "feather_physics.recorder";
 static const char player_name[] = "feather_physics.player";
 
@@ -79,6 +80,10 @@ typedef struct history_box {
     fe_history *history; ///< NULL: closed
     PyObject *world;     ///< the capsule of its world, with which it ends
 } history_box;
+
+typedef struct state_box {
+    fe_state *state; ///< NULL: closed
+} state_box;
 
 typedef struct recorder_box {
     fe_recorder *recorder; ///< NULL: closed
@@ -147,6 +152,14 @@ static void release_history(PyObject *capsule)
     if (!box) return;
     if (history_lives(box)) (void)fe_history_destroy(box->history);
     Py_DECREF(box->world);
+    free(box);
+}
+
+static void release_state(PyObject *capsule)
+{
+    state_box *box = PyCapsule_GetPointer(capsule, state_name);
+    if (!box) return;
+    if (box->state) (void)fe_state_destroy(box->state);
     free(box);
 }
 
@@ -219,6 +232,19 @@ static PyObject *new_history(fe_history *history, PyObject *world)
         box->world = Py_NewRef(world);
     } else {
         (void)fe_history_destroy(history);
+        free(box);
+    }
+    return capsule;
+}
+
+static PyObject *new_state(fe_state *state)
+{
+    state_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, state_name, release_state) : PyErr_NoMemory();
+    if (capsule) {
+        box->state = state;
+    } else {
+        (void)fe_state_destroy(state);
         free(box);
     }
     return capsule;
@@ -304,6 +330,13 @@ static history_box *history_of(PyObject *object)
     history_box *box = box_of(object, history_name, "history");
     return box && !may_not_use(box) ? box : NULL;
 }
+
+static int state_is_closed(const state_box *box)
+{
+    return box->state ? 0 : fails(FE_ERROR_STALE, "the state is closed");
+}
+
+static state_box *state_of(PyObject *object) { return box_of(object, state_name, "a state"); }
 
 static int recorder_is_closed(const recorder_box *box)
 {

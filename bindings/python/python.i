@@ -106,6 +106,22 @@ static PyObject *flat_keep(PyObject *self, PyObject *arguments)
     if (strcmp("$symname", "history_destroy") == 0) given$argnum->history = NULL;
 %}
 
+%typemap(in, numinputs=0) const fe_allocator *allocator "$1 = NULL;"
+%typemap(in, numinputs=0) fe_state **out_state (fe_state *made = 0) "$1 = &made;"
+%typemap(argout) fe_state **out_state %{ $result = new_state(*$1); %}
+%typemap(in) fe_state *state (state_box *given = 0) {
+    given = state_of($input);
+    if (!given) SWIG_fail;
+    $1 = given->state;
+}
+%typemap(in) const fe_state *state = fe_state *state;
+// when all arguments are converted, as above
+%typemap(check) fe_state *state, const fe_state *state "if (state_is_closed(given$argnum)) SWIG_fail;"
+%typemap(argout) fe_state *state %{
+    if (strcmp("$symname", "state_destroy") == 0 && result == FE_OK) given$argnum->state = NULL;
+%}
+%typemap(argout) const fe_state *state ""
+
 %typemap(in, numinputs=0) fe_recorder **out_recorder (fe_recorder *made = 0) "$1 = &made;"
 %typemap(argout) fe_recorder **out_recorder %{ $result = new_recorder(*$1, swig_obj[0]); %}
 %typemap(in) fe_recorder *recorder (recorder_box *given = 0) {

@@ -76,6 +76,7 @@ from .records import (
     Vector,
 )
 from .snapshot import compare_snapshots, snapshot_assets, snapshot_info
+from .state import State
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .sweeping import SweepError, sweep
 from .world import Pool, World
@@ -147,6 +148,7 @@ __all__ = [
     "StaleHandleError",
     "StateError",
     "SteppingError",
+    "State",
     "Store",
     "SweepError",
     "Transform",

@@ -14,6 +14,7 @@ from .history import History
 from .objects import Body, Joint, Shape, handle_of
 from .recording import DRAIN_STEPS, Path, Recorder, Recording, begin
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
+from .state import State
 from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
 from .words import SIMD_SETS, body_type, draw_bits, fill, locks_bits, word
 
@@ -75,7 +76,7 @@ class World:
     """Everything that can touch each other. `with World() as world:` closes it at the end; so does losing it and all
     that is in it."""
 
-    __slots__ = ("_capsule", "_closed", "_store", "_user_data", "_pair_filter", "_recording", "__weakref__")
+    __slots__ = ("_capsule", "_closed", "_store", "_has_own_store", "_user_data", "_pair_filter", "_recording", "__weakref__")
 
     def __init__(
         self,
@@ -109,6 +110,7 @@ class World:
         self._capsule = capsule
         _flat.keep(self._capsule, (pool and pool._capsule, store and store._capsule))
         self._closed = False
+        self._has_own_store = store is None
         self._store = Store._of(self._capsule) if store is None else store
         self._user_data: Dict[int, Any] = {}
         self._pair_filter: Optional[Callable[[FilterPair], Any]] = None
@@ -158,6 +160,35 @@ class World:
         valid = (_flat.body_is_valid, _flat.shape_is_valid, _flat.joint_is_valid)
         kept = [id for id in self._user_data if any(is_valid(self._capsule, id) for is_valid in valid)]
         self._user_data = {id: self._user_data[id] for id in kept}
+
+    def clone(self, *, workers: int = 1, simd: str = "auto", number: int = 0, pool: Optional[Pool] = None) -> "World":
+        """A second world like this one: both go on bit for bit, and share a store. Handles name the same things in both
+        unless a number is given. It has the pair filter and the user data, each body's the same object."""
+        definition = _flat.world_def()
+        definition.worker_count = workers
+        definition.simd = word(SIMD_SETS, simd, "simd")
+        definition.number = number
+        if pool is not None:
+            definition.pool = pool._capsule
+        made = type(self).__new__(type(self))
+        made._begin(_flat.world_clone(self._capsule, definition), pool, None if self._has_own_store else self._store)
+        made._store._user_data = self._store._user_data
+        made._user_data = dict(self._user_data)
+        made.set_pair_filter(self._pair_filter)
+        return made
+
+    def state(self) -> State:
+        """What the world is now, in memory, in some microseconds: set_state() goes back to it, this world, a clone or
+        any that uses the same store."""
+        return State(_flat.state_create(self._capsule), None if self._has_own_store else self._store)
+
+    def set_state(self, state: State) -> None:
+        """The world becomes what the state is of. A StateError when that is of another store. Objects of what was made
+        since are not to be kept, as after restore()."""
+        if not isinstance(state, State):
+            raise TypeError(f"a State is needed, not a {type(state).__name__}")
+        _flat.world_set_state(self._capsule, state._capsule)
+        self._forget_ended()
 
     def history(self, *, frames: int = 16, bytes: int = 0) -> History:
         """Keeps the last frames in memory, to go back to one of them at once: for rollback. Bytes: what all of them may

@@ -33,7 +33,7 @@ def header_functions() -> List[Function]:
             Parameter(*re.match(r"\s*(.*?)(\w+)\s*$", part, re.S).groups())  # type: ignore[union-attr]
             for part in arguments.split(",")
         ]
-        if not re.match(r"fe_(batch|state)_|fe_array_init$|fe_world_(clone|set_state)$", name):
+        if not re.match(r"fe_batch_|fe_array_init$", name):
             found.append(Function(name, result.strip(), parameters))
     return found
 

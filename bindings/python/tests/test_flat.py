@@ -23,7 +23,7 @@ ELSEWHERE = {
 BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners|instances|keys|frames)$")
 # an object with the bytes goes in, or comes out
 BYTES = {"fe_asset_save": 2, "fe_asset_load": 2, "fe_world_save": 2, "fe_world_restore": 3, "fe_world_load": 3, "fe_snapshot_check": 1, "fe_snapshot_get_assets": 2, "fe_snapshot_compare": 2, "fe_recorder_read": 1, "fe_player_feed": 2}
-FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
+FOUND_FROM_BUFFERS = ("allocator", "stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
 
 
 def python_arguments(function: Function) -> int:

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Dict, List
 
@@ -41,6 +42,8 @@ def test_types_are_right(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example_runs(example: Path, tmp_path: Path) -> None:
+    if example.stem == "sweep_dask" and find_spec("distributed") is None and os.environ.get("CI") != "true":
+        pytest.skip("NOT TESTED: python3-distributed is not installed")
     assert run([sys.executable, example], tmp_path, dict(os.environ))
     if example.stem == "pile":
         assert (tmp_path / "pile.png").read_bytes().startswith(b"\x89PNG")
