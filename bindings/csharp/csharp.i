@@ -48,4 +48,5 @@ typedef struct fe_shell fe_shell;
 fe_result fe_shell_create_world(fe_world_def *def, fe_world **out_world, fe_shell **out_shell);
 fe_result fe_shell_load_world(fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
                               fe_world **out_world, fe_shell **out_shell);
+fe_result fe_shell_clone_world(const fe_world *source, fe_world_def *def, fe_world **out_world, fe_shell **out_shell);
 void fe_shell_leave(fe_shell *shell);

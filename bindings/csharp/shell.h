@@ -48,16 +48,18 @@ static void shell_release(void *user, void *memory, uint64_t size)
     else give_block(memory);
 }
 
-// Without bytes an empty world, with bytes the one that they are of.
-static fe_result make_world(fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
-                            fe_world **out_world, fe_shell **out_shell)
+// With a source its clone, with bytes the world that they are of, else an empty one.
+static fe_result make_world(const fe_world *source, fe_world_def *def, const fe_restore_options *options,
+                            const void *bytes, int64_t size, fe_world **out_world, fe_shell **out_shell)
 {
     fe_shell *shell = calloc(1, sizeof *shell);
     if (!shell) return FE_ERROR_MEMORY;
     fe_allocator allocator = {
         .struct_size = sizeof allocator, .allocate = shell_allocate, .release = shell_release, .user = shell};
     def->allocator = &allocator;
-    fe_result result = bytes ? fe_world_load(def, options, bytes, size, out_world) : fe_world_create(def, out_world);
+    fe_result result = source  ? fe_world_clone(source, def, out_world)
+                       : bytes ? fe_world_load(def, options, bytes, size, out_world)
+                               : fe_world_create(def, out_world);
     def->allocator = NULL;
     if (result < 0) {
         free(shell);
@@ -71,13 +73,19 @@ static fe_result make_world(fe_world_def *def, const fe_restore_options *options
 
 static fe_result fe_shell_create_world(fe_world_def *def, fe_world **out_world, fe_shell **out_shell)
 {
-    return make_world(def, NULL, NULL, 0, out_world, out_shell);
+    return make_world(NULL, def, NULL, NULL, 0, out_world, out_shell);
 }
 
 static fe_result fe_shell_load_world(fe_world_def *def, const fe_restore_options *options, const void *bytes,
                                      int64_t size, fe_world **out_world, fe_shell **out_shell)
 {
-    return make_world(def, options, bytes, size, out_world, out_shell);
+    return make_world(NULL, def, options, bytes, size, out_world, out_shell);
+}
+
+static fe_result fe_shell_clone_world(const fe_world *source, fe_world_def *def, fe_world **out_world,
+                                      fe_shell **out_shell)
+{
+    return make_world(source, def, NULL, NULL, 0, out_world, out_shell);
 }
 
 #endif

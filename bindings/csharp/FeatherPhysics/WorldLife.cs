@@ -79,6 +79,34 @@ namespace FeatherPhysics
             if (store != null && store.Safe == null)
                 throw new BadArgumentException("World: the store belongs to another world; make one with new Store()");
             Hold(pool, store);
+            Begin(null, def, pool, store, options, bytes, size);
+            this.store = store;
+        }
+
+        /// A clone.
+        World(World source, WorldDef def, Pool pool)
+        {
+            bool held = false;
+            try
+            {
+                source.Hold(ref held);
+                Hold(pool, null);
+                safe.Store = source.HoldStore();
+                Begin(source, def ?? new WorldDef(), pool, null, null, null, 0);
+                if (safe.Store != null) store = source.store;
+            }
+            catch
+            {
+                safe.Drop();
+                throw;
+            }
+            finally { if (held) source.Release(); }
+        }
+
+        /// Makes what the constructors hold a pool and a store for.
+        void Begin(World source, WorldDef def, Pool pool, Store store, NativeRestoreOptions* options, byte* bytes,
+            long size)
+        {
             int length = (int)WorldDef.Size;
             byte* copy = stackalloc byte[length];
             IntPtr made = IntPtr.Zero, memory = IntPtr.Zero;
@@ -91,7 +119,8 @@ namespace FeatherPhysics
             }
             try
             {
-                if (bytes == null) Native.shell_create_world(copy, &made, &memory);
+                if (source != null) Native.shell_clone_world(source.P, copy, &made, &memory);
+                else if (bytes == null) Native.shell_create_world(copy, &made, &memory);
                 else Native.shell_load_world(copy, options, bytes, size, &made, &memory);
             }
             catch
@@ -102,7 +131,15 @@ namespace FeatherPhysics
             shell.Pointer = (void*)memory;
             safe.Set(made);
             pointer = made;
-            this.store = store;
+        }
+
+        /// The store that the world was made with, for one more user; null: it has its own.
+        internal Store.StoreHandle HoldStore()
+        {
+            Store.StoreHandle kept = safe.Store;
+            bool held = false;
+            if (kept != null) kept.DangerousAddRef(ref held);
+            return kept;
         }
 
         void Hold(Pool pool, Store store)

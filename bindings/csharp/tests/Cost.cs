@@ -114,6 +114,7 @@ namespace FeatherPhysics.Tests
             parts[0] = parts[1] = new CompoundPart(Geometry.Sphere(1));
             long told = 0, before = 0;
             using (World world = Busy(body))
+            using (State state = world.GetState())
             {
                 byte[] saved = new byte[2 * world.GetSnapshotSize() + 65536]; // contacts come
                 for (int i = -200; i < steps; ++i)
@@ -137,6 +138,7 @@ namespace FeatherPhysics.Tests
                         made.Destroy();
                         int size = world.Save(saved);
                         if (world.Restore(saved.AsSpan(0, size))) told += size;
+                        world.SetState(state);
                     }
                     told += world.BodyEvents.Length + world.HitEvents.Length + world.JointEvents.Length;
                     told += world.GetMoved(bodies, at) + body[0].GetContacts(contacts);

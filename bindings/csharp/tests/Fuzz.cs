@@ -21,6 +21,7 @@ namespace FeatherPhysics.Tests
         readonly Dictionary<Type, object[]> made = new Dictionary<Type, object[]>();
         readonly List<MethodInfo> methods = new List<MethodInfo>();
         byte[] saved = new byte[0];
+        State state; // the last one made
         public long Calls, Refused;
 
         public Fuzz(int seed)
@@ -80,6 +81,8 @@ namespace FeatherPhysics.Tests
             if (type.IsEnum) return Enum.ToObject(type, random.Next(-1, 8));
             if (type == typeof(World)) return worlds[random.Next(worlds.Length)];
             if (type == typeof(PairFilter)) return Filter();
+            if (type == typeof(Pool)) return null;
+            if (type == typeof(State)) return state;
             if (type == typeof(BodyHandle)) return new BodyHandle(Handle(typeof(Body)));
             if (type == typeof(ShapeHandle)) return new ShapeHandle(Handle(typeof(Shape)));
             if (type == typeof(JointHandle)) return new JointHandle(Handle(typeof(Joint)));
@@ -154,7 +157,13 @@ namespace FeatherPhysics.Tests
             ParameterInfo[] parameters = method.GetParameters();
             object[] arguments = new object[parameters.Length];
             for (int i = 0; i < arguments.Length; ++i) arguments[i] = Value(parameters[i].ParameterType);
-            try { Keep(method.Invoke(Object(method.DeclaringType), arguments)); }
+            try
+            {
+                object value = method.Invoke(Object(method.DeclaringType), arguments);
+                if (method.Name == "Clone") ((World)value).Dispose();
+                if (value is State) state = (State)value;
+                Keep(value);
+            }
             catch (TargetInvocationException e)
             {
                 if (!(e.InnerException is FeatherException) && !(e.InnerException is ObjectDisposedException))

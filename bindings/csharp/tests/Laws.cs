@@ -1340,8 +1340,7 @@ namespace FeatherPhysics.Tests
             {
                 string name = m.Groups[1].Value;
                 if (name == "allocator_init" || name == "task_system_init") continue; // for hosts in C
-                if (Regex.IsMatch(name, "^(recorder|player|divergence|batch|state|array)_")) continue; // likewise
-                if (name == "world_clone" || name == "world_set_state") continue;
+                if (Regex.IsMatch(name, "^(recorder|player|divergence|batch|array)_")) continue; // likewise
                 Check.True(flat.Contains(" " + name + "("), "fe_" + name + " is missing");
                 if (!Regex.IsMatch(layer, @"Native(PINVOKE)?\." + name + @"\(") && name != "result_name" &&
                     !shell.Contains(" fe_" + name + "(") && !name.EndsWith("_init")) Console.WriteLine("note: nothing above Native calls fe_" + name);
