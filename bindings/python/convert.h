@@ -336,7 +336,7 @@ static int state_is_closed(const state_box *box)
     return box->state ? 0 : fails(FE_ERROR_STALE, "the state is closed");
 }
 
-static state_box *state_of(PyObject *object) { return box_of(object, state_name, "a state"); }
+static state_box *state_of(PyObject *object) { return box_of(object, state_name, "state"); }
 
 static int recorder_is_closed(const recorder_box *box)
 {

@@ -5,6 +5,7 @@
 #include "rows.h"
 
 #include "python/convert.h"
+#include "python/batch.h"
 #include "python/picture.h"
 %}
 %include "records.i"
@@ -20,6 +21,14 @@
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
+%native(batch_create) PyObject *flat_batch_create(PyObject *self, PyObject *arguments);
+%native(batch_destroy) PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments);
+%native(batch_bind) PyObject *flat_batch_bind(PyObject *self, PyObject *arguments);
+%native(batch_step) PyObject *flat_batch_step(PyObject *self, PyObject *arguments);
+%native(batch_reset) PyObject *flat_batch_reset(PyObject *self, PyObject *arguments);
+%native(batch_read) PyObject *flat_batch_read(PyObject *self, PyObject *arguments);
+%native(batch_write) PyObject *flat_batch_write(PyObject *self, PyObject *arguments);
+%native(batch_hash) PyObject *flat_batch_hash(PyObject *self, PyObject *arguments);
 %native(picture) PyObject *flat_picture(PyObject *self, PyObject *arguments);
 %native(keep) PyObject *flat_keep(PyObject *self, PyObject *arguments);
 %{

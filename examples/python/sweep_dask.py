@@ -47,8 +47,9 @@ def main() -> None:
             found = sweep(throw, THROWS, world=wall(), executor=client, progress=True)
     far = max(range(len(found)), key=lambda i: math.hypot(*found[i][:2]))
     print(f"the throw that ends farthest: {far}, {math.hypot(*found[far][:2]):.2f} m from the middle")
-    serial = sweep(throw, THROWS[:20], world=wall())
-    print("the first 20 are those of a loop" if found[:20] == serial else "NOT those of a loop")
+    if found != sweep(throw, THROWS, world=wall()):
+        sys.exit("these are NOT the results of a loop")
+    print("the results are those of a loop")
 
 
 if __name__ == "__main__":

@@ -79,6 +79,7 @@ from .snapshot import compare_snapshots, snapshot_assets, snapshot_info
 from .state import State
 from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .sweeping import SweepError, sweep
+from .worlds import Worlds, WorldsError
 from .world import Pool, World
 
 __all__ = [
@@ -158,6 +159,8 @@ __all__ = [
     "Vector",
     "VersionError",
     "World",
+    "Worlds",
+    "WorldsError",
     "WrongKindError",
     "compare_snapshots",
     "snapshot_assets",

@@ -25,7 +25,7 @@ class Function(NamedTuple):
 
 
 def header_functions() -> List[Function]:
-    """What feather.h exports, but for many worlds at once, which are for hosts in C."""
+    """What feather.h exports, but for batches, whose calls are written by hand (batch.h)."""
     text = re.sub(r"//[^\n]*|^\s*#[^\n]*", "", (ROOT / "include/feather.h").read_text(), flags=re.M)
     found = []
     for result, name, arguments in re.findall(r"FE_API\s+([\w\s*]+?)\b(fe_\w+)\(([^;]*)\);", text):
