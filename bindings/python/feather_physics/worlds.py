@@ -144,11 +144,14 @@ class Worlds:
     def _array(
         self, field: str, items: Optional[Sequence[Any]], data: Any, relative_to: Optional[Body], origin: Vector
     ) -> Tuple[Any, ...]:
-        number, kind, _ = _field(field)
+        number, kind, width = _field(field)
         if (kind is None) != (items is None):
             raise InvalidArgumentError(f"{field}: " + ("it has no items" if kind is None else "of which items?"))
         ids = None if kind is None or items is None else arrays.array("Q", [handle_of(self._world, item, kind) for item in items])
         frame = 0 if relative_to is None else handle_of(self._world, relative_to, Body)
+        shape, given = (self._count, 1 if items is None else len(items), width), memoryview(data)
+        if given.ndim != 1 and given.shape != shape:  # as many numbers in another order would be taken for others
+            raise InvalidArgumentError(f"{field}: an array of shape {shape} is needed, not {given.shape}")
         return number, ids, frame, origin, data
 
     # ---- all of them

@@ -153,6 +153,7 @@ def test_a_scheduler_whose_worker_is_killed_gives_what_the_loop_gives(tmp_path: 
         "    print(done, total, file=sys.stderr)\n"
         "found = sweep(throw, THROWS, world=wall(), executor=sys.argv[1], chunk=8, progress=kill_one)\n"
         "with Client(sys.argv[1]) as client:\n"
+        "    client.wait_for_workers(2, timeout=60)\n"  # the nanny takes its time
         "    print(killed[0], *client.run(os.getpid).values())\n"
         "print(repr(found))\n"
     )

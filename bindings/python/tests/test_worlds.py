@@ -106,6 +106,8 @@ def test_fields_are_read_and_written(world: World) -> None:
         assert (np.asarray(worlds.read("awake", bodies)) == 1).all()
         near = np.asarray(worlds.read("transform", bodies[:2], relative_to=bodies[0]))
         assert np.allclose(near[:, 0, :3], 0, atol=1e-6) and np.allclose(near[:, 0, 6], 1)
+        flat = worlds.read("awake", bodies, np.zeros(4 * COUNT, np.float32))
+        assert (flat == 1).all()
         far = np.asarray(worlds.read("transform", bodies[:1], np.zeros((COUNT, 1, 7)), origin=(100, 0, 0)))
         assert (far[:, 0, 0] < -90).all()
 
@@ -169,8 +171,10 @@ def test_wrong_arguments_are_named(world: World) -> None:
             ("gravity", bodies, None, InvalidArgumentError),
             ("transform", [joint], None, TypeError),
             ("transform", bodies, np.zeros((COUNT, 4, 6), np.float32), InvalidArgumentError),
+            ("transform", bodies, np.zeros((COUNT, 7, 4), np.float32), InvalidArgumentError),
+            ("transform", bodies, [1.0, 2.0], TypeError),
             ("transform", bodies, np.zeros((COUNT, 4, 7), np.int32), TypeError),
-            ("transform", bodies, np.zeros((7, 4, COUNT), np.float32).T, BufferError),
+            ("transform", bodies, np.asfortranarray(np.zeros((COUNT, 4, 7), np.float32)), BufferError),
             ("force", bodies, None, InvalidArgumentError),
         ):
             with pytest.raises(error):
