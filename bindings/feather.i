@@ -35,10 +35,12 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
-// Many worlds at once: for hosts in C; clones and states in Python and C# too.
+// Many worlds at once: for hosts in C, and in C#; clones and states in Python too.
+#if !defined(SWIGCSHARP)
 %rename("$ignore", regexmatch$name="^fe_batch(_[a-z_]+)?$") "";
 %ignore fe_array;
 %ignore fe_array_init;
+#endif
 #if !defined(SWIGPYTHON) && !defined(SWIGCSHARP)
 %rename("$ignore", regexmatch$name="^fe_state(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_world_clone;

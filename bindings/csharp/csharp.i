@@ -23,7 +23,8 @@
 %typemap(out)    SWIGTYPE *, const char * "$result = (void *)$1;"
 %typemap(csout)  SWIGTYPE *, const char * { return $imcall; }
 
-%apply SWIGTYPE * { void *user, fe_pair_filter filter, void *out, const void *bytes, const void *a, const void *b };
+%apply SWIGTYPE * { void *user, fe_pair_filter filter, void *out, const void *bytes, const void *a, const void *b,
+                     const fe_state *const *states };
 
 %typemap(ctype)  fe_result "int"
 %typemap(imtype) fe_result "int"

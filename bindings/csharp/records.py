@@ -16,13 +16,14 @@ BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "
 NAMES = {"fe_material": "SurfaceMaterial", "fe_bounds": "WorldBounds", "fe_energy": "WorldEnergy",
          "fe_profile": "StepProfile", "fe_counters": "WorldCounters", "fe_path": "SweepPath", "fe_axis": "Axes",
          "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring",
-         "fe_overlap": "ShapeOverlap"}
+         "fe_overlap": "ShapeOverlap", "fe_field": "BatchField"}
 PRIVATE = {"fe_query_filter": "NativeFilter",  # what serves instead is written by hand
            "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh",
            "fe_save": "NativeSave", "fe_save_options": "NativeSaveOptions",
-           "fe_restore_options": "NativeRestoreOptions", "fe_difference": "NativeDifference"}
-FOR_C = {"fe_allocator", "fe_batch_def", "fe_array", "fe_field", "fe_task_system", "fe_recorder_def", "fe_player_def",
-         "fe_player_info", "fe_note", "fe_divergence", "fe_record_flags", "fe_divergence_type"}
+           "fe_restore_options": "NativeRestoreOptions", "fe_difference": "NativeDifference",
+           "fe_array": "NativeBatchArray"}
+FOR_C = {"fe_allocator", "fe_task_system", "fe_recorder_def", "fe_player_def", "fe_player_info", "fe_note",
+         "fe_divergence", "fe_record_flags", "fe_divergence_type"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong", "char": "byte"}

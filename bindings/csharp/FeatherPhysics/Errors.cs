@@ -44,7 +44,7 @@ namespace FeatherPhysics
             }
         }
 
-        static unsafe string LastError()
+        internal static unsafe string LastError()
         {
             byte* text = (byte*)Native.last_error();
             int length = 0;

@@ -223,7 +223,7 @@ namespace FeatherPhysics
         {
             Native.world_step(P, dt);
             GC.KeepAlive(this);
-            if (thrown != null) ThrowFromFilter();
+            ThrowFromFilter();
         }
 
         PairEvent[] pairEvents = new PairEvent[64];

@@ -54,9 +54,10 @@ namespace FeatherPhysics
             finally { Volatile.Write(ref judging, 0); }
         }
 
-        void ThrowFromFilter()
+        internal void ThrowFromFilter()
         {
             ExceptionDispatchInfo first = thrown;
+            if (first == null) return;
             thrown = null;
             first.Throw();
         }

@@ -30,6 +30,7 @@ namespace FeatherPhysics
         {
             public Pool.PoolHandle Pool;    // held until the world is gone, as is the store
             public Store.StoreHandle Store;
+            public Batch.BatchHandle Batch; // of a batch's world, which goes with it
             public GCHandle Judge;          // names the world in calls of its pair filter
 
             public WorldHandle() : base(IntPtr.Zero, true) { }
@@ -39,6 +40,11 @@ namespace FeatherPhysics
             // Calls that are inside end soon: no new ones begin.
             protected override bool ReleaseHandle()
             {
+                if (Batch != null)
+                {
+                    Drop();
+                    return true;
+                }
                 SpinWait wait = new SpinWait();
                 Result result;
                 do
@@ -55,6 +61,8 @@ namespace FeatherPhysics
                 if (Pool != null) Pool.DangerousRelease();
                 if (Store != null) Store.DangerousRelease();
                 if (Judge.IsAllocated) Judge.Free();
+                if (Batch != null) Batch.DangerousRelease();
+                Batch = null;
                 Pool = null;
                 Store = null;
             }
@@ -93,7 +101,7 @@ namespace FeatherPhysics
                 Hold(pool, null);
                 safe.Store = source.HoldStore();
                 Begin(source, def ?? new WorldDef(), pool, null, null, null, 0);
-                if (safe.Store != null) store = source.store;
+                store = source.GivenStore;
             }
             catch
             {
@@ -102,6 +110,30 @@ namespace FeatherPhysics
             }
             finally { if (held) source.Release(); }
         }
+
+        /// One of a batch's worlds. It keeps the batch's memory as long as it can be reached.
+        internal World(Batch.BatchHandle batch, IntPtr world, Store store)
+        {
+            bool held = false;
+            batch.DangerousAddRef(ref held);
+            safe.Batch = batch;
+            if (batch.Store != null)
+            {
+                held = false;
+                batch.Store.DangerousAddRef(ref held);
+                safe.Store = batch.Store;
+                this.store = store;
+            }
+            safe.Set(world);
+            pointer = world;
+        }
+
+        /// Its batch is disposed: later calls throw.
+        internal void End() { pointer = IntPtr.Zero; }
+
+        /// The store that it was made with; null: it has its own.
+        internal Store GivenStore { get { return safe.Store == null ? null : store; } }
+        internal PairFilter GivenFilter { get { return pairFilter; } }
 
         /// Makes what the constructors hold a pool and a store for.
         void Begin(World source, WorldDef def, Pool pool, Store store, NativeRestoreOptions* options, byte* bytes,
@@ -158,10 +190,11 @@ namespace FeatherPhysics
 
         /// <summary>
         /// Destroys the world and all in it. Calls of other threads that are inside end first; those that begin later
-        /// throw. WorldSteppingException inside the world's own pair filter.
+        /// throw. WorldSteppingException inside the world's own pair filter, WrongStateException for a batch's world.
         /// </summary>
         public void Dispose()
         {
+            if (safe.Batch != null) throw new WrongStateException("World.Dispose: the world goes with its batch");
             if (IsJudging) throw new WorldSteppingException("World.Dispose: called by the world's own pair filter");
             pointer = IntPtr.Zero;
             safe.Dispose();

@@ -150,5 +150,36 @@ namespace FeatherPhysics.Tests
                 return used;
             }
         }
+
+        /// The same of a batch that is stepped, read, written, hashed and reset.
+        public static long BytesOfBatch(int steps)
+        {
+            Body[] body = new Body[6];
+            float[] awake = new float[8];
+            BatchArray gravity = new BatchArray(BatchField.Gravity, new float[24]);
+            bool[] mask = new bool[8];
+            Result[] results = new Result[8];
+            ulong[] hashes = new ulong[8];
+            State[] states = new State[8];
+            long told = 0, before = 0;
+            using (World world = Busy(body))
+            using (State state = world.GetState())
+            using (Batch batch = new Batch(world, new BatchDef { WorldCount = 8, WorkerCount = 2 }))
+            {
+                states[3] = state;
+                batch.Bind(null, new[] { new BatchArray(BatchField.Awake, awake, body[0].Handle) });
+                for (int i = -20; i < steps; ++i)
+                {
+                    if (i == 0) before = GC.GetAllocatedBytesForCurrentThread();
+                    mask[i & 7] = !mask[i & 7];
+                    told += batch.Step(1f / 60, 2, mask, results) + batch.Read(gravity) + batch.Write(gravity, mask);
+                    batch.GetHashes(hashes);
+                    if (i % 10 == 0) told += batch.Reset(mask, states, results);
+                }
+                long used = GC.GetAllocatedBytesForCurrentThread() - before;
+                GC.KeepAlive(told);
+                return used;
+            }
+        }
     }
 }

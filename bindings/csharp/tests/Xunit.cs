@@ -23,5 +23,8 @@ namespace FeatherPhysics.Tests
 
         [Fact]
         public void Steps_queries_events_and_snapshots_allocate_nothing() { Assert.Equal(0, Cost.BytesOfSteps(2000)); }
+
+        [Fact]
+        public void Batches_allocate_nothing() { Assert.Equal(0, Cost.BytesOfBatch(200)); }
     }
 }
