@@ -161,13 +161,12 @@ class World:
         kept = [id for id in self._user_data if any(is_valid(self._capsule, id) for is_valid in valid)]
         self._user_data = {id: self._user_data[id] for id in kept}
 
-    def clone(self, *, workers: int = 1, simd: str = "auto", number: int = 0, pool: Optional[Pool] = None) -> "World":
-        """A second world like this one: both go on bit for bit, and share a store. Handles name the same things in both
-        unless a number is given. It has the pair filter and the user data, each body's the same object."""
+    def clone(self, *, workers: int = 1, simd: str = "auto", pool: Optional[Pool] = None) -> "World":
+        """A second world like this one: both go on bit for bit, and share a store. Handles name the same things in
+        both. It has the pair filter and the user data, each body's the same object."""
         definition = _flat.world_def()
         definition.worker_count = workers
         definition.simd = word(SIMD_SETS, simd, "simd")
-        definition.number = number
         if pool is not None:
             definition.pool = pool._capsule
         made = type(self).__new__(type(self))
