@@ -35,7 +35,7 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
-// Many worlds at once: for hosts in C, and in C#; clones and states in Python too.
+// Many worlds at once: in C, C# and Python, where the calls of batches are written by hand (python/batch.h).
 #if !defined(SWIGCSHARP)
 %rename("$ignore", regexmatch$name="^fe_batch(_[a-z_]+)?$") "";
 %ignore fe_array;

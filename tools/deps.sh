@@ -28,11 +28,11 @@ missing_for_python() {
     python_has numpy || echo python3-numpy
     python_has matplotlib || echo python3-matplotlib
     python_has nbconvert || echo jupyter-nbconvert
+    python_has ipykernel || echo python3-ipykernel
     python_has joblib || echo python3-joblib
     python_has mpi4py || echo python3-mpi4py
     has mpiexec || echo openmpi-bin
     python_has distributed || echo python3-distributed
-    python_has ipykernel || echo python3-ipykernel
     has mypy || echo mypy
 }
 

@@ -9,6 +9,7 @@ static const char batch_name[] = "feather_physics.batch";
 
 typedef struct batch_box {
     fe_batch *batch; ///< NULL: closed
+    int32_t count;   ///< of worlds
 } batch_box;
 
 static void release_batch(PyObject *capsule)
@@ -50,6 +51,7 @@ static PyObject *flat_batch_create(PyObject *self, PyObject *arguments)
         free(box);
         return NULL;
     }
+    box->count = def.world_count;
     const fe_result result = fe_batch_create(of_world->world, &def, &box->batch);
     if (result == FE_OK && PyCapsule_SetContext(capsule, Py_NewRef(kept)) == 0) return capsule;
     if (result != FE_OK) raise_result(result);
@@ -166,17 +168,18 @@ typedef struct batch_call {
     PyObject *batch;
     batch_box *box;
     Py_buffer mask, results;
-    int32_t count; ///< of worlds
 } batch_call;
 
-static int begin_batch_call(batch_call *c, PyObject *batch, int32_t count, PyObject *mask, PyObject *results)
+static int begin_batch_call(batch_call *c, PyObject *batch, PyObject *mask, PyObject *results)
 {
-    *c = (batch_call){.batch = batch, .count = count};
+    *c = (batch_call){.batch = batch};
+    batch_box *box = batch_of(batch);
+    if (!box) return -1;
     if (take_buffer(mask, PyBUF_C_CONTIGUOUS, &c->mask)) return -1;
     if (take_buffer(results, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE, &c->results)) return -1;
-    if (!has_size(&c->mask, count, "mask") || !has_size(&c->results, 4 * (Py_ssize_t)count, "results")) return -1;
-    c->box = batch_of(batch);
-    if (!c->box) return -1;
+    const Py_ssize_t count = box->count;
+    if (!has_size(&c->mask, count, "mask") || !has_size(&c->results, 4 * count, "results")) return -1;
+    c->box = box;
     Py_INCREF(batch);
     return 0;
 }
@@ -191,16 +194,16 @@ static PyObject *end_batch_call(batch_call *c, int32_t failed)
     return failed < 0 ? NULL : PyLong_FromLong(failed);
 }
 
-/// (batch, count, dt, steps, mask, results)
+/// (batch, dt, steps, mask, results)
 static PyObject *flat_batch_step(PyObject *self, PyObject *arguments)
 {
     PyObject *batch, *mask, *results;
     float dt;
-    int count, steps, failed = 0;
-    batch_call c;
+    int steps, failed = 0;
+    batch_call c = {0};
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OifiOO", &batch, &count, &dt, &steps, &mask, &results)) return NULL;
-    if (begin_batch_call(&c, batch, count, mask, results) == 0) {
+    if (!PyArg_ParseTuple(arguments, "OfiOO", &batch, &dt, &steps, &mask, &results)) return NULL;
+    if (begin_batch_call(&c, batch, mask, results) == 0) {
         PyThreadState *others = PyEval_SaveThread();
         failed = fe_batch_step(c.box->batch, dt, steps, c.mask.buf, c.results.buf);
         PyEval_RestoreThread(others);
@@ -208,75 +211,77 @@ static PyObject *flat_batch_step(PyObject *self, PyObject *arguments)
     return end_batch_call(&c, failed);
 }
 
-/// (batch, count, mask, states or None, results): a state a world, None: the beginning
+/// (batch, mask, states or None, results): a state a world, None: the beginning
 static PyObject *flat_batch_reset(PyObject *self, PyObject *arguments)
 {
     PyObject *batch, *mask, *states, *results;
-    int count, failed = 0;
+    int failed = 0;
     batch_call c = {0};
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OiOOO", &batch, &count, &mask, &states, &results)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "OOOO", &batch, &mask, &states, &results)) return NULL;
+    const batch_box *box = batch_of(batch);
+    if (!box) return NULL;
+    const int32_t count = box->count;
     if (states != Py_None && (!PyList_Check(states) || PyList_GET_SIZE(states) != count)) {
-        PyErr_Format(PyExc_ValueError, "states: a list of %d is needed", count);
+        PyErr_Format(PyExc_ValueError, "states: a list of %d is needed", (int)count);
         return NULL;
     }
     const fe_state **given = states == Py_None ? NULL : calloc((size_t)count + 1, sizeof *given);
     if (states != Py_None && !given) return PyErr_NoMemory();
     int status = 0;
-    for (int i = 0; i < count && given && status == 0; ++i) {
+    for (int32_t i = 0; i < count && given && status == 0; ++i) {
         PyObject *one = PyList_GET_ITEM(states, i);
         state_box *state = one == Py_None ? NULL : state_of(one);
         status = one == Py_None ? 0 : !state || state_is_closed(state) ? -1 : 0;
         if (status == 0 && state) given[i] = state->state;
     }
-    if (status == 0 && begin_batch_call(&c, batch, count, mask, results) == 0)
+    if (status == 0 && begin_batch_call(&c, batch, mask, results) == 0)
         failed = fe_batch_reset(c.box->batch, c.mask.buf, given, c.results.buf);
     free(given);
     return end_batch_call(&c, failed);
 }
 
-/// (batch, count, array, results)
+/// (batch, array, results)
 static PyObject *flat_batch_read(PyObject *self, PyObject *arguments)
 {
     PyObject *batch, *array, *results;
-    int count, failed = 0;
+    int failed = 0;
     batch_call c = {0};
     arrays a = {.count = 0};
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OiOO", &batch, &count, &array, &results)) return NULL;
-    if (take_array(array, 1, &a) == 0 && begin_batch_call(&c, batch, count, Py_None, results) == 0)
+    if (!PyArg_ParseTuple(arguments, "OOO", &batch, &array, &results)) return NULL;
+    if (take_array(array, 1, &a) == 0 && begin_batch_call(&c, batch, Py_None, results) == 0)
         failed = fe_batch_read(c.box->batch, a.of, c.results.buf);
     drop_arrays(&a);
     return end_batch_call(&c, failed);
 }
 
-/// (batch, count, array, mask, results)
+/// (batch, array, mask, results)
 static PyObject *flat_batch_write(PyObject *self, PyObject *arguments)
 {
     PyObject *batch, *array, *mask, *results;
-    int count, failed = 0;
+    int failed = 0;
     batch_call c = {0};
     arrays a = {.count = 0};
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OiOOO", &batch, &count, &array, &mask, &results)) return NULL;
-    if (take_array(array, 0, &a) == 0 && begin_batch_call(&c, batch, count, mask, results) == 0)
+    if (!PyArg_ParseTuple(arguments, "OOOO", &batch, &array, &mask, &results)) return NULL;
+    if (take_array(array, 0, &a) == 0 && begin_batch_call(&c, batch, mask, results) == 0)
         failed = fe_batch_write(c.box->batch, a.of, c.mask.buf, c.results.buf);
     drop_arrays(&a);
     return end_batch_call(&c, failed);
 }
 
-/// (batch, count, out): 8 bytes a world
+/// (batch, out): 8 bytes a world
 static PyObject *flat_batch_hash(PyObject *self, PyObject *arguments)
 {
     PyObject *batch, *out;
-    int count;
     Py_buffer buffer;
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OiO", &batch, &count, &out)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "OO", &batch, &out)) return NULL;
     batch_box *box = batch_of(batch);
     if (!box || take_buffer(out, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE, &buffer)) return NULL;
     fe_result result = FE_OK;
-    const int fits = has_size(&buffer, 8 * (Py_ssize_t)count, "out");
+    const int fits = has_size(&buffer, 8 * (Py_ssize_t)box->count, "out");
     if (fits) result = fe_batch_hash(box->batch, buffer.buf);
     drop_buffer(&buffer);
     if (result != FE_OK) raise_result(result);

@@ -20,6 +20,12 @@ static int to_request(PyObject *arguments, PyObject **out_world, picture_request
     if (!PyArg_ParseTuple(arguments, "OiiIOOO", out_world, &out->width, &out->height, &out->view.parts, &eye, &target,
                           &direction))
         return -1;
+    const int w = out->width, h = out->height;
+    if (w < PICTURE_LEAST || w > PICTURE_MOST || h < PICTURE_LEAST || h > PICTURE_MOST) {
+        PyErr_Format(error_class(FE_ERROR_ARGUMENT), "width, height: a picture has %d to %d pixels a side, not %d x %d",
+                     PICTURE_LEAST, PICTURE_MOST, w, h);
+        return -1;
+    }
     out->is_fitted = eye == Py_None;
     if (out->is_fitted) return to_vec3(direction, &out->toward_eye, "direction");
     if (to_dvec3(eye, &out->view.eye, "eye") || to_dvec3(target, &out->view.target, "target")) return -1;

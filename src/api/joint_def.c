@@ -1,5 +1,6 @@
 // joint_def.c - see joint_def.h.
 #include "api/joint_def.h"
+#include "world/joint_drive.h"
 #include "world/joint_record.h"
 
 // The least half angle of a cone, rad: a narrower one is a hinge, whose cone's slope a float cannot hold
@@ -115,6 +116,14 @@ void fe_configurable_joint_def_init(fe_configurable_joint_def *def, uint32_t str
 #define FE_CHECK_CAP(value) FE_CHECK_FLOAT(value, 0.0f, FE_MAX_FORCE)
 #define FE_CHECK_ANGLE(value) FE_CHECK_FLOAT(value, -FE_PI, FE_PI)
 
+static fe_result check_target(const char *function, const char *name, const char *part, int32_t type, int32_t dof,
+                              float target)
+{
+    float least, most;
+    fe__joint_target_range(type, dof, &least, &most);
+    return fe__check_number(function, name, part, (double)target, (double)least, (double)most);
+}
+
 fe_result fe__check_joint_common(const char *function, const fe_joint_def *full)
 {
     FE_CHECK_BOOL(full->enabled);
@@ -136,7 +145,7 @@ static fe_result check_distance(const char *function, const fe_distance_joint_de
     FE_CHECK_BOOL(full->limit_enabled);
     FE_CHECK_FLOAT(full->upper, FE_LEAST_LENGTH, FE_MAX_LOCAL);
     FE_CHECK_FLOAT(full->lower, 0.0f, full->upper);
-    FE_CHECK_FLOAT(full->target, 0.0f, FE_MAX_LOCAL);
+    FE_TRY(check_target(function, "full->target", "", FE_JOINT_DISTANCE, FE_DOF_LINEAR_X, full->target));
     FE_CHECK_SOFTNESS(full->spring_hertz, full->spring_damping_ratio);
     FE_CHECK_CAP(full->spring_max);
     FE_CHECK_FLOAT(full->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
@@ -171,7 +180,7 @@ static fe_result check_hinge(const char *function, const fe_hinge_joint_def *ful
     FE_CHECK_SOFTNESS(full->limit_hertz, full->limit_damping_ratio);
     FE_CHECK_SOFTNESS(full->spring_hertz, full->spring_damping_ratio);
     FE_CHECK_CAP(full->spring_max);
-    FE_CHECK_ANGLE(full->target);
+    FE_TRY(check_target(function, "full->target", "", FE_JOINT_HINGE, FE_DOF_ANGULAR_X, full->target));
     FE_CHECK_FLOAT(full->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
     FE_CHECK_CAP(full->motor_max);
     FE_CHECK_INT(full->reserved_end, 0, 0);
@@ -199,7 +208,7 @@ static fe_result check_configurable(const char *function, const fe_configurable_
         CHECK(limit_hertz, 0.0f, FE_MAX_VALUE);
         CHECK(limit_damping_ratio, 0.0f, FE_MAX_VALUE);
         CHECK(spring, FE_SPRING_NONE, FE_SPRING_STIFFNESS);
-        CHECK(target, -reach, reach);
+        FE_TRY(check_target(function, names[k], ".target", FE_JOINT_CONFIGURABLE, k, axis->target));
         CHECK(spring_hertz, 0.0f, FE_MAX_VALUE);
         CHECK(spring_damping_ratio, 0.0f, FE_MAX_VALUE);
         CHECK(spring_stiffness, 0.0f, FE_MAX_FORCE);

@@ -11,14 +11,7 @@ from .errors import InvalidArgumentError
 from .records import Vector
 from .words import draw_bits
 
-LEAST, MOST = 16, 4096  # pixels of a side
 FROM = (0.6, 0.45, 1.0)  # the eye looks a little down, and a little along
-
-
-def _number(name: str, value: int) -> int:
-    if not LEAST <= value <= MOST:
-        raise InvalidArgumentError(f"{name}: a picture has {LEAST} to {MOST} pixels a side, not {value}")
-    return value
 
 
 def _slanted(name: str, x: float, y: float, z: float) -> None:
@@ -44,8 +37,7 @@ def take(
         _slanted("direction", *direction)
     else:
         _slanted("eye", *(a - b for a, b in zip(eye, target)))
-    size = _number("width", width), _number("height", height)
-    png: bytes = _flat.picture(capsule, *size, draw_bits(parts), eye, target, direction)
+    png: bytes = _flat.picture(capsule, width, height, draw_bits(parts), eye, target, direction)
     return png
 
 

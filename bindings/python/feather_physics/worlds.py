@@ -133,13 +133,13 @@ class Worlds:
         """Fills an array from a field of all worlds, now."""
         made = self.array(field, items) if out is None else out
         given = self._array(field, items, made, relative_to, origin)
-        self._judge(_flat.batch_read(self._capsule, self._count, given, self.results))
+        self._judge(_flat.batch_read(self._capsule, given, self.results))
         return made
 
     def write(self, field: str, items: Optional[Sequence[Any]], values: Any, *, mask: Any = None) -> None:
         """Writes a field of all worlds, or of those in a mask, from an array, now: of each world all rows or none."""
         given = self._array(field, items, values, None, ORIGIN)
-        self._judge(_flat.batch_write(self._capsule, self._count, given, mask, self.results))
+        self._judge(_flat.batch_write(self._capsule, given, mask, self.results))
 
     def _array(
         self, field: str, items: Optional[Sequence[Any]], data: Any, relative_to: Optional[Body], origin: Vector
@@ -159,17 +159,17 @@ class Worlds:
     def step(self, dt: float = 1 / 60, steps: int = 1, mask: Any = None) -> None:
         """Steps all worlds, or those whose byte in the mask is not 0; the inputs hold in all the steps. Other Python
         threads run meanwhile. A WorldsError when some fail: each stands after its last whole step, the others go on."""
-        self._judge(_flat.batch_step(self._capsule, self._count, dt, steps, mask, self.results))
+        self._judge(_flat.batch_step(self._capsule, dt, steps, mask, self.results))
 
     def reset(self, mask: Any = None, states: Optional[Sequence[Optional[State]]] = None) -> None:
         """Worlds become what the first world was when they were made, or a state each; None: the beginning."""
         given = None if states is None else [None if state is None else state._capsule for state in states]
-        self._judge(_flat.batch_reset(self._capsule, self._count, mask, given, self.results))
+        self._judge(_flat.batch_reset(self._capsule, mask, given, self.results))
 
     def hashes(self) -> "arrays.array[int]":
         """world.hash of each."""
         out = arrays.array("Q", bytes(8 * self._count))
-        _flat.batch_hash(self._capsule, self._count, out)
+        _flat.batch_hash(self._capsule, out)
         return out
 
     def _judge(self, failed: int) -> None:
