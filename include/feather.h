@@ -2045,7 +2045,8 @@ FE_API fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t 
 /// Steps each world as fe_world_step does, bit for bit, whatever the workers, the block and the mask. A world that
 /// fails stands after its last whole step, without the forces of the step that failed, and the others go on. An input
 /// that a world cannot take fails that world: nothing of its row is taken. So does an item that is gone: its outputs
-/// are 0 (FE_ERROR_STALE). fe_last_error names the first.
+/// are 0 (FE_ERROR_STALE). fe_last_error names the first. Worlds with a pair filter are stepped by the thread that calls,
+/// in their order, after the others.
 /// @param dt           s, as fe_world_step
 /// @param steps        1..1000; the inputs hold in all of them
 /// @param mask         a byte a world, 0: left alone; NULL: all

@@ -7,6 +7,7 @@
 #include "step/step.h"
 #include "world/hash.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 // ---- rows ----------------------------------------------------------------------------------------------------------
@@ -128,6 +129,7 @@ typedef struct job {
     void (*act)(const struct job *job, int32_t world, int32_t worker);
     float dt;
     int32_t steps;
+    _Atomic int32_t *some_filtered; // of a step: 1 when a world was left for the caller's thread
     const fe_state *const *states;
     const fe__batch_array *array;
     uint32_t *words;
@@ -178,7 +180,7 @@ static void make_steps(const job *j, int32_t world, int32_t worker)
     }
 }
 
-static void step_world(const job *j, int32_t world, int32_t worker)
+static void step_whole(const job *j, int32_t world, int32_t worker)
 {
     fe_batch *b = j->batch;
     const fe__bound *bound = &b->bound;
@@ -191,9 +193,32 @@ static void step_world(const job *j, int32_t world, int32_t worker)
     }
 }
 
+// A pair filter is the host's code. It is called on the host's thread, in the order of the worlds: what it remembers
+// does not depend on workers, and a managed runtime meets no thread that it does not know.
+static void step_unfiltered(const job *j, int32_t world, int32_t worker)
+{
+    if (j->batch->worlds[world]->pair_filter)
+        atomic_store_explicit(j->some_filtered, 1, memory_order_relaxed);
+    else
+        step_whole(j, world, worker);
+}
+
+static void step_filtered(const job *j, int32_t world, int32_t worker)
+{
+    if (j->batch->worlds[world]->pair_filter) step_whole(j, world, worker);
+}
+
 void fe__batch_step(fe_batch *b, float dt, int32_t steps, const uint8_t *mask)
 {
-    act_on_all(&(job){.batch = b, .mask = mask, .act = step_world, .dt = dt, .steps = steps});
+    _Atomic int32_t some_filtered = 0;
+    job j = {.batch = b, .mask = mask, .act = step_unfiltered, .dt = dt, .steps = steps};
+    j.some_filtered = &some_filtered;
+    act_on_all(&j);
+    if (!atomic_load_explicit(&some_filtered, memory_order_relaxed)) return;
+    fe__fp_state fp = fe__fp_enter();
+    j.act = step_filtered;
+    act_on_range(&j, 0, b->count, 0);
+    fe__fp_leave(fp);
 }
 
 static void reset_world(const job *j, int32_t world, int32_t worker)

@@ -24,16 +24,28 @@ static void *begin(void *argument)
     return NULL;
 }
 
+// What users, terminals, timers and children send to a process: the host's own threads handle it. The rest must reach
+// any thread: faults, or the kernel ends the process without a word of its handlers; and what runtimes send to a single
+// thread to stop it, since a callback makes a worker one of theirs (Boehm's collector SIGPWR and SIGXCPU, .NET and Mono
+// real-time signals, Java SIGUSR2).
+static void fill_with_signals_of_the_process(sigset_t *set)
+{
+    static const int numbers[] = {SIGHUP,   SIGINT,  SIGQUIT, SIGTERM, SIGALRM, SIGVTALRM, SIGCHLD,
+                                  SIGWINCH, SIGTSTP, SIGTTIN, SIGTTOU, SIGCONT, SIGIO,     SIGURG};
+    sigemptyset(set);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) sigaddset(set, numbers[i]);
+}
+
 int fe__os_thread_start(fe__os_thread *thread, void (*work)(void *argument), void *argument)
 {
     pthread_attr_t attributes;
-    sigset_t all, before;
+    sigset_t blocked, before;
     thread->work = work;
     thread->argument = argument;
     if (pthread_attr_init(&attributes) != 0) return 0;
     pthread_attr_setstacksize(&attributes, STACK_SIZE);
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
+    fill_with_signals_of_the_process(&blocked);
+    pthread_sigmask(SIG_BLOCK, &blocked, &before);
     int started = pthread_create(&thread->handle, &attributes, begin, thread) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     pthread_attr_destroy(&attributes);

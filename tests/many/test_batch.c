@@ -694,6 +694,60 @@ static void a_joint_that_breaks_ends_its_force(void **state)
     destroy(a.world);
 }
 
+// ---- filters -------------------------------------------------------------------------------------------------------
+static _Thread_local int32_t is_caller;
+
+typedef struct journal {
+    int32_t worlds[64]; // that asked, in order
+    int32_t count, strangers;
+} journal;
+
+typedef struct judge {
+    journal *journal;
+    int32_t world;
+} judge;
+
+static int32_t refuse_all(void *user, const fe_filter_pair *pair)
+{
+    const judge *j = user;
+    (void)pair;
+    j->journal->strangers += !is_caller;
+    FE_TRUE(j->journal->count < 64);
+    j->journal->worlds[j->journal->count++] = j->world;
+    return 0;
+}
+
+// Their answers may depend on what was asked before: the order is the same for any workers.
+static void filters_are_asked_by_the_caller_in_the_order_of_worlds(void **state)
+{
+    (void)state;
+    fe_body ball;
+    fe_world *source = ball_world(&ball);
+    fe_shape shape;
+    FE_TRUE(fe_body_get_shapes(source, ball, &shape, 1) == 1);
+    OK(fe_shape_set_pair_filter(source, shape, 1));
+    is_caller = 1;
+    for (int32_t workers = 1; workers <= 8; workers *= 2) {
+        fe_batch *batch = make_batch(source, WORLDS, workers, 1, FE_SIMD_AUTO);
+        journal asked = {{0}, 0, 0};
+        judge judges[WORLDS];
+        for (int32_t i = 0; i < WORLDS; i += 2) { // the others have none
+            judges[i] = (judge){&asked, i};
+            OK(fe_world_set_pair_filter(world_of(batch, i), refuse_all, judges + i));
+        }
+        FE_TRUE(fe_batch_step(batch, DT, 60, NULL, NULL) == 0);
+        FE_TRUE(asked.strangers == 0 && asked.count == (WORLDS + 1) / 2);
+        for (int32_t i = 0; i < asked.count; ++i) FE_TRUE(asked.worlds[i] == 2 * i);
+        for (int32_t i = 0; i < WORLDS; ++i) {
+            fe_transform at;
+            OK(fe_body_get_transform(world_of(batch, i), ball, &at));
+            FE_TRUE((at.position.y < 0.0) == (i % 2 == 0)); // it falls through the ground where the filter refuses
+        }
+        OK(fe_batch_destroy(batch));
+    }
+    destroy(source);
+}
+
 static void sets_states_of_single_worlds(void **state)
 {
     (void)state;
@@ -1022,6 +1076,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_row_of_what_is_gone_is_zero),
         cmocka_unit_test(no_world_speaks_for_the_others),
         cmocka_unit_test(a_joint_that_breaks_ends_its_force),
+        cmocka_unit_test(filters_are_asked_by_the_caller_in_the_order_of_worlds),
         cmocka_unit_test(sets_states_of_single_worlds),
         cmocka_unit_test(allocations_fail_one_by_one),
         cmocka_unit_test(a_force_counts_once),

@@ -3,9 +3,11 @@
 
 #include "core/clock.h"
 #include "core/fp_state.h"
+#include "core/os_thread.h"
 #include "core/threads.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -339,6 +341,41 @@ static void the_clock_never_goes_back(void **state)
     FE_WITHIN(fe__clock() - start, 0.001, 60.0);
 }
 
+// ---- signals -------------------------------------------------------------------------------------------------------
+
+typedef struct mask_seen {
+    sigset_t blocked;
+    int failed;
+} mask_seen;
+
+static void see_mask(void *argument)
+{
+    mask_seen *seen = argument;
+    seen->failed = pthread_sigmask(SIG_BLOCK, NULL, &seen->blocked);
+}
+
+// A blocked fault ends the process without a word of its handlers; a blocked signal to the thread keeps a collector
+// waiting for ever, once a callback has made the thread one of its own.
+static void threads_block_what_is_sent_to_the_process_and_no_more(void **state)
+{
+    (void)state;
+    const int of_the_process[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGCHLD, SIGWINCH, SIGCONT};
+    const int of_the_thread[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGXCPU, SIGUSR1, SIGUSR2};
+    mask_seen seen;
+    fe__os_thread thread;
+    assert_true(fe__os_thread_start(&thread, see_mask, &seen));
+    fe__os_thread_join(&thread);
+    assert_int_equal(seen.failed, 0);
+    for (size_t i = 0; i < sizeof of_the_process / sizeof *of_the_process; ++i)
+        assert_true(sigismember(&seen.blocked, of_the_process[i]));
+    for (size_t i = 0; i < sizeof of_the_thread / sizeof *of_the_thread; ++i)
+        assert_false(sigismember(&seen.blocked, of_the_thread[i]));
+#if defined(__linux__)
+    assert_false(sigismember(&seen.blocked, SIGPWR));
+    for (int s = SIGRTMIN; s <= SIGRTMAX; ++s) assert_false(sigismember(&seen.blocked, s));
+#endif
+}
+
 int main(void)
 {
 #if !defined(_WIN32)
@@ -358,6 +395,7 @@ int main(void)
         cmocka_unit_test(all_sleepers_come_when_there_is_work_for_all),
         cmocka_unit_test(an_idle_pool_burns_no_core),
         cmocka_unit_test(the_clock_never_goes_back),
+        cmocka_unit_test(threads_block_what_is_sent_to_the_process_and_no_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

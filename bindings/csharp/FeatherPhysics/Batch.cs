@@ -1,5 +1,6 @@
 // Many worlds, made from one, that step together. docs/MANY.md has what they are.
 using System;
+using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 using System.Threading;
 
@@ -189,7 +190,8 @@ namespace FeatherPhysics
         /// <summary>
         /// Steps each world as <see cref="World.Step"/> does. A world that fails stands after its last whole step,
         /// and the others go on. Returns how many failed; <see cref="Failure"/> says why the first did. Exceptions of
-        /// pair filters, which all workers call at once, are thrown as World.Step throws them.
+        /// pair filters are thrown as World.Step throws them: that of the lowest world. Worlds with a filter are stepped
+        /// by this thread, in their order, after the others.
         /// </summary>
         /// <param name="dt">s</param>
         /// <param name="steps">1..1000; the inputs hold in all of them</param>
@@ -209,8 +211,13 @@ namespace FeatherPhysics
                     failed = Told(Native.batch_step(Enter(ref held), dt, steps, maskAt, resultsAt));
             }
             finally { Leave(held); }
+            ExceptionDispatchInfo first = null; // of the lowest world; those of the others end with this step
             foreach (World world in worlds)
-                if (world != null) world.ThrowFromFilter();
+            {
+                ExceptionDispatchInfo thrown = world == null ? null : world.TakeThrown();
+                first = first ?? thrown;
+            }
+            if (first != null) first.Throw();
             return failed;
         }
 

@@ -1,6 +1,7 @@
 // A world: settings, bodies, the step, what is read after it. WorldLife.cs has its life, WorldFilter.cs its pair
 // filter, WorldJoints.cs its joints, WorldQueries.cs its queries, WorldSnapshot.cs its snapshots.
 using System;
+using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 #if UNITY_5_3_OR_NEWER
 using UnityEngine;
@@ -223,7 +224,8 @@ namespace FeatherPhysics
         {
             Native.world_step(P, dt);
             GC.KeepAlive(this);
-            ThrowFromFilter();
+            ExceptionDispatchInfo first = TakeThrown();
+            if (first != null) first.Throw();
         }
 
         PairEvent[] pairEvents = new PairEvent[64];

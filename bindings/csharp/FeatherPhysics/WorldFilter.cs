@@ -54,12 +54,11 @@ namespace FeatherPhysics
             finally { Volatile.Write(ref judging, 0); }
         }
 
-        internal void ThrowFromFilter()
+        internal ExceptionDispatchInfo TakeThrown()
         {
             ExceptionDispatchInfo first = thrown;
-            if (first == null) return;
-            thrown = null;
-            first.Throw();
+            if (first != null) thrown = null;
+            return first;
         }
 
         /// <summary>

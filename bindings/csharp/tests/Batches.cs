@@ -251,7 +251,7 @@ namespace FeatherPhysics.Tests
                 Body ball = world.CreateDynamic(new DVec3(0, 0.4, 0));
                 ball.AddSphere(0.5f, new ShapeDef { PairFilter = true });
                 int asked = 0;
-                world.SetPairFilter(pair => { System.Threading.Interlocked.Increment(ref asked); return false; });
+                world.SetPairFilter(pair => { ++asked; return false; });
                 using (Batch batch = new Batch(world, new BatchDef { WorldCount = 8, WorkerCount = 2 }))
                 {
                     batch.Step(Dt, 10);
@@ -259,6 +259,13 @@ namespace FeatherPhysics.Tests
                     batch.Reset();
                     batch[3].SetPairFilter(pair => { throw new LawBrokenException("mine"); });
                     Check.Throws<LawBrokenException>(() => batch.Step(Dt), "mine");
+                    batch.Step(Dt);
+                    batch.Reset();
+                    string nothing = asked < 0 ? "" : null;
+                    for (int i = 0; i < 8; ++i) batch[i].SetPairFilter(pair => nothing.Length > 0); // a fault
+                    Check.Throws<NullReferenceException>(() => batch.Step(Dt), "");
+                    batch.Reset();
+                    for (int i = 0; i < 8; ++i) batch[i].SetPairFilter(pair => { GC.Collect(); return true; });
                     batch.Step(Dt);
                     batch.Reset();
                     batch[3].SetPairFilter(pair => { batch.Step(Dt); return true; });
