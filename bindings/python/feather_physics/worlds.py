@@ -52,7 +52,7 @@ class Worlds:
         """Workers, 1 to 64, are threads of its own unless a pool is given. Block: worlds that a worker takes at once,
         0: chosen."""
         if world._pair_filter is not None:
-            raise UnsupportedError("Worlds: the world has a pair filter, which many threads would call at once")
+            raise UnsupportedError("Worlds: the world has a pair filter, which is a function of one world; clone() takes it along")
         kept = (pool and pool._capsule, None if world._has_own_store else world._store._capsule)
         self._capsule = _flat.batch_create(
             world._capsule, count, workers, block, word(SIMD_SETS, simd, "simd"), pool and pool._capsule, kept

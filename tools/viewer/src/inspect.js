@@ -1,5 +1,6 @@
 // inspect.js - the right panel: every value of the body or joint that is picked, with its unit.
 import { codeOf } from './code.js';
+import { testOf } from './testcode.js';
 
 const DEGREES = 180 / Math.PI;
 const escape = (s) => String(s).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -27,6 +28,8 @@ export function eulerOf({ x, y, z, w }) { // about x, then y, then z
 }
 const axes = (bits) => ['X', 'Y', 'Z'].filter((_, k) => bits & (1 << k)).join(' ') || 'none';
 const hex = (n) => '0x' + (n >>> 0).toString(16);
+
+const TEST_BUTTON = '<button data-do="test" title="a C program: it plays the recording to this step and compares">Copy as a test</button>';
 
 export class Inspector {
     constructor(app) {
@@ -71,7 +74,7 @@ ${this.#number('pairs', c.pairs)}${this.#number('contacts', c.contacts)}${this.#
 ${Object.entries(world.tuning).map(([k, v]) => this.#number(k.replace(/[A-Z]/g, (l) => ' ' + l.toLowerCase()), typeof v === 'boolean' ? (v ? 'yes' : 'no') : v)).join('')}
 <h3>Last step here <span>${shown(p.step)} ms</span></h3>
 ${['pairs', 'collide', 'islands', 'solve', 'continuous', 'finalize', 'events', 'sleep'].map((k) => this.#number(k, p[k], 'ms')).join('')}
-<h3>State</h3>${this.#value('hash', world.hash)}`;
+<h3>State</h3>${this.#value('hash', world.hash)}<div class="actions">${TEST_BUTTON}</div>`;
     }
     #body(b) {
         const { app } = this, at = b.transform, v = b.linearVelocity, w = b.angularVelocity, isStatic = b.type === 'static', parts = [];
@@ -93,7 +96,7 @@ ${['pairs', 'collide', 'islands', 'solve', 'continuous', 'finalize', 'events', '
         if (joints.length) say(`<h3>Joints <span>${joints.length}</span></h3>`, ...joints.map((j) => `<div class="value"><label>${app.world.joint(j).type}</label><output>${this.#go(j, 'joint')}</output></div>`));
         if (contacts.length) say(`<h3>Contacts <span>${contacts.length}</span></h3>`, ...contacts.slice(0, 40).map((c) => this.#contact(c, b.id)));
         say(`<div class="actions"><button data-do="focus">Show</button><button data-do="follow" aria-pressed="${app.following === b.id}">Follow</button>
-<button data-do="c">Copy as C</button><button data-do="python">Copy as Python</button></div>`);
+<button data-do="c">Copy as C</button><button data-do="python">Copy as Python</button>${TEST_BUTTON}</div>`);
         return parts.join('');
     }
     #shape(s) {
@@ -127,10 +130,17 @@ ${this.#vector('spin of B against A', s.angularVelocity, 'rad/s')}${this.#number
 <h3>Reaction</h3>${this.#vector('force', r.force, 'N', 'reaction.force')}${this.#vector('torque', r.torque, 'N m', 'reaction.torque')}
 <h3>Settings</h3>${settings.map(([k, v]) => this.#number(k.replace(/[A-Z]/g, (l) => ' ' + l.toLowerCase()), typeof v === 'boolean' ? (v ? 'yes' : 'no') : v)).join('')}`;
     }
+    #copyTest(button) {
+        const { app } = this, id = app.picked?.body, body = id && app.world.body(id);
+        if (app.live) return app.say('A test plays a recording: save what you did as one, open it, and copy the test there.');
+        const name = body?.isValid ? app.nameOf(id) : '';
+        app.copy(testOf(app.world, app.fileName ?? 'run.feather', app.step, name && body, name), button);
+    }
     #act(what, button) {
         const { app } = this;
         if (what === 'focus') app.focus();
         else if (what === 'follow') app.follow();
+        else if (what === 'test') this.#copyTest(button);
         else app.copy(codeOf(what, app.world, app.picked.body, app.step), button);
     }
 }

@@ -73,16 +73,21 @@ export class Plots {
             if (this.on.has(c.name) && c.k < series.width) this.#curve(g, w, h, series, first, span, c);
         }
     }
-    // Of each column of pixels the least and the largest value
-    #curve(g, w, h, series, first, span, { k, colour }) {
+    #range(series, k) {
         let low = Infinity, high = -Infinity;
         for (let s = 0; s < series.count; ++s) {
             const v = series.data[s * series.width + k];
             if (v < low) low = v;
             if (v > high) high = v;
         }
-        if (!(high >= low)) return;
         if (low > 0 && low < 0.5 * high) low = 0;
+        return [low, high];
+    }
+    // Of each column of pixels the least and the largest value
+    #curve(g, w, h, series, first, span, { k, colour, scale }) {
+        let [low, high] = this.#range(series, scale ? COLUMNS.findIndex((c) => c.name === scale) : k);
+        if (scale) low = 0; // parts of it, which may be nothing
+        if (!(high >= low)) return;
         const y = (v) => h - 4.5 - (high > low ? (v - low) / (high - low) : 0.5) * (h - 9);
         g.strokeStyle = colour, g.beginPath();
         const each = Math.max(1, Math.floor(span / w));

@@ -2,12 +2,12 @@
 // It has a module of its own. Numbers of a step: those of COLUMNS in series.js, then the pinned ones.
 import Feather, { Player } from 'feather-physics/module';
 import { x, u32, f32, u64, scratch, temp, reset } from 'feather-physics/runtime.js';
-import { readPin } from './series.js';
+import { COLUMNS, readPin } from './series.js';
 
 const BATCH = 60, MS = 40; // steps, ms between two messages at most
 // Of fe_contact and fe_joint_state, bytes
 const CONTACT = 272, POINT_COUNT = 60, POINTS = 64, POINT = 40, SEPARATION = 24, LINEAR_ERROR = 60, JOINT_STATE = 68;
-const MOST_JOINTS = 4000;
+const MOST_JOINTS = 4000, PHASES = COLUMNS.filter((c) => c.phase).map((c) => c.phase);
 
 let player, pins = [], generation = 0, running = false, dead = false, begun = false, queue = Promise.resolve();
 const fed = [];
@@ -42,9 +42,10 @@ function widest(world) {
 function numbers(world) {
     const c = world.counters, e = world.energy, moved = world.getMoved();
     const p = world.getMomentum([0, 0, 0]).linear;
-    const list = [
+    const { profile } = world, list = [
         e.kinetic, e.potential, deepest(world, moved) * 1e3, widest(world) * 1e3, c.awakeBodies, c.contacts,
-        Math.hypot(p.x, p.y, p.z), world.profile.step, world.hitEvents.length,
+        Math.hypot(p.x, p.y, p.z), profile.step, world.hitEvents.length,
+        ...PHASES.map((phase) => profile[phase]),
     ];
     for (const pin of pins) list.push(readPin(world, pin));
     return list;

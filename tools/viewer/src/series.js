@@ -1,5 +1,7 @@
 // series.js - what is plotted: the columns that the scan fills, and values of bodies and joints that somebody pinned.
+// A column has a name, a unit and a colour. `scale` names another column, in whose scale it is drawn.
 export const SLOT = 2097152; // handles count bodies in their lowest 21 bits
+const STEP_TIME = 'time of a step';
 export const COLUMNS = [
     { name: 'kinetic energy', unit: 'J', colour: '#e69f00' },
     { name: 'potential energy', unit: 'J', colour: '#56b4e9' },
@@ -8,8 +10,13 @@ export const COLUMNS = [
     { name: 'awake bodies', unit: '', colour: '#009e73' },
     { name: 'contacts', unit: '', colour: '#88ccee' },
     { name: 'momentum', unit: 'kg m/s', colour: '#aa4499' },
-    { name: 'time of a step', unit: 'ms', colour: '#999933' },
+    { name: STEP_TIME, unit: 'ms', colour: '#999933' },
     { name: 'hits', unit: '', colour: '#f0e442' },
+    // parts of the time of a step, drawn by its scale
+    ...[
+        ['pairs', '#77aadd'], ['collide', '#ee8866'], ['islands', '#eedd88'], ['solve', '#ffaabb'],
+        ['continuous', '#99ddff'], ['finalize', '#44bb99'], ['events', '#bbcc33'], ['sleep', '#aaaa00'],
+    ].map(([phase, colour]) => ({ name: `in ${phase}`, phase, unit: 'ms', colour, scale: STEP_TIME })),
 ];
 const PINNED = ['#4477aa', '#ee6677', '#228833', '#ccbb44', '#66ccee', '#aa3377'];
 export const colourOf = (k) => COLUMNS[k]?.colour ?? PINNED[(k - COLUMNS.length) % PINNED.length];

@@ -2,7 +2,7 @@
 import test, { before, after } from 'node:test';
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync, appendFileSync } from 'node:fs';
-import { spawn } from 'node:child_process';
+import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { openBrowser, openPage, drop, scanned } from './page.mjs';
@@ -98,6 +98,58 @@ test('plots have a value for every step, of pinned values too', async () => {
     for (const { step, pendulum } of said.steps) assert.equal(await page.evaluate((s) => viewer.series.at(s, viewer.series.width - 1), step), pendulum[1]);
     assert.ok(await page.isVisible('#plot'));
     await page.keyboard.press('p');
+});
+
+test('plots have the parts of the time of a step', async () => {
+    await scanned(page);
+    const rows = await page.evaluate((last) => {
+        const { series, plots } = viewer, found = [];
+        const columns = plots.all(), whole = columns.find((c) => c.name === 'time of a step').k;
+        const parts = columns.filter((c) => c.name.startsWith('in '));
+        for (let s = viewer.first + 1; s <= last; ++s) found.push([series.at(s, whole), parts.map((c) => series.at(s, c.k))]);
+        return found;
+    }, said.last);
+    const sum = (list) => list.reduce((all, v) => all + v, 0);
+    assert.equal(rows.length, said.last);
+    for (const [step, parts] of rows) {
+        assert.equal(parts.length, 8);
+        for (const part of parts) assert.ok(part >= 0 && part <= step, `${part} of ${step}`);
+    }
+    const [steps, parts] = [sum(rows.map((r) => r[0])), sum(rows.map((r) => sum(r[1])))];
+    assert.ok(parts > 0.5 * steps && parts <= 1.001 * steps, `${parts} of ${steps}`); // they do not overlap
+});
+
+// What the page copies, as a program; its exit and what it prints
+function runTest(text, recording) {
+    const source = `${files}/copied.c`, program = `${files}/copied`;
+    const options = ['-std=c99', '-Wall', '-Wextra', '-Wpedantic', '-Werror', `-I${process.env.FEATHER_INCLUDE}`];
+    writeFileSync(source, text);
+    execFileSync('cc', [...options, source, process.env.FEATHER_LIBRARY, '-lm', '-pthread', '-o', program]);
+    const { status, stdout } = spawnSync(program, [recording], { encoding: 'utf8' });
+    return { status, stdout };
+}
+
+test('a step is copied as a test in C, which finds what the page showed, and nothing else', async () => {
+    const copied = (body) => page.evaluate(({ picked, step }) => {
+        viewer.jump(step), viewer.pick(picked && { body: Number(picked) }), viewer.panels();
+        document.querySelector('[data-do=test]').click();
+        return new Promise((go) => setTimeout(() => go(viewer.copied), 50));
+    }, { picked: body, step: said.last - 1 });
+    const [ofBody, ofWorld] = [await copied(said.pendulum), await copied(null)];
+    assert.match(ofBody, /the pendulum/);
+    const passes = { status: 0, stdout: 'as in the viewer\n' };
+    for (const text of [ofBody, ofWorld]) assert.deepEqual(runTest(text, `${files}/a.feather`), passes);
+    const nudged = runTest(ofWorld, `${files}/b.feather`);
+    assert.equal(nudged.status, 1);
+    assert.match(nudged.stdout, /hash is 0x[0-9a-f]{16}, not 0x[0-9a-f]{16}\ndiffers\n$/);
+    const another = runTest(ofBody, `${files}/b.feather`); // its worlds have other numbers
+    assert.equal(another.status, 1);
+    assert.match(another.stdout, /is a body of world/);
+    const altered = runTest(ofBody.replace(/"position.y", (.*), .*\}/, '"position.y", $1, 7.5}'), `${files}/a.feather`);
+    assert.equal(altered.status, 1);
+    assert.match(altered.stdout, /^position.y is -?[0-9.e-]+, not 7.5\ndiffers\n$/);
+    const late = runTest(ofWorld.replace(/seek\(player, \d+\)/, 'seek(player, 1000000)'), `${files}/a.feather`);
+    assert.deepEqual([late.status, late.stdout.slice(0, 23)], [1, 'the recording ends befo']);
 });
 
 test('what is drawn lies where the bodies are', async () => {
