@@ -47,8 +47,8 @@
 %ignore fe_world_set_state;
 #endif
 
-#if !defined(SWIGPYTHON)
-// Recordings: for hosts in C, and in Python.
+#if !defined(SWIGPYTHON) && !defined(SWIGCSHARP)
+// Recordings: for hosts in C, Python and C#.
 %rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_note;
 #endif

@@ -2045,8 +2045,8 @@ FE_API fe_result fe_batch_bind(fe_batch *batch, const fe_array *inputs, int32_t 
 /// Steps each world as fe_world_step does, bit for bit, whatever the workers, the block and the mask. A world that
 /// fails stands after its last whole step, without the forces of the step that failed, and the others go on. An input
 /// that a world cannot take fails that world: nothing of its row is taken. So does an item that is gone: its outputs
-/// are 0 (FE_ERROR_STALE). fe_last_error names the first. Worlds with a pair filter are stepped by the thread that calls,
-/// in their order, after the others.
+/// are 0 (FE_ERROR_STALE). fe_last_error names the first. Worlds with a pair filter are stepped by the thread that
+/// calls, in their order, after the others.
 /// @param dt           s, as fe_world_step
 /// @param steps        1..1000; the inputs hold in all of them
 /// @param mask         a byte a world, 0: left alone; NULL: all
@@ -2146,7 +2146,8 @@ FE_API fe_result fe_player_step(fe_player *player);
 /// @param step  as fe_player_info counts
 /// @return FE_ERROR_ARGUMENT for a step before the first one; else as fe_player_step
 FE_API fe_result fe_player_seek(fe_player *player, int64_t step);
-/// The world as it is now, for all calls that read. It is the player's.
+/// The world as it is now, for all calls that read. It is the player's: what writes it is FE_ERROR_STATE. Its clones
+/// and the batches made of it are the caller's; their pair filter, where it has one, lets all pairs collide.
 /// @return FE_ERROR_STATE before the first step or seek, and after fe_player_release
 FE_API fe_result fe_player_get_world(const fe_player *player, const fe_world **out_world);
 /// Hands the world over: it is the caller's from here on, to be changed, stepped, destroyed. Its pair filter, where the

@@ -24,7 +24,7 @@
 %typemap(csout)  SWIGTYPE *, const char * { return $imcall; }
 
 %apply SWIGTYPE * { void *user, fe_pair_filter filter, void *out, const void *bytes, const void *a, const void *b,
-                     const fe_state *const *states };
+                     const fe_state *const *states, const char *text };
 
 %typemap(ctype)  fe_result "int"
 %typemap(imtype) fe_result "int"
@@ -50,4 +50,5 @@ fe_result fe_shell_create_world(fe_world_def *def, fe_world **out_world, fe_shel
 fe_result fe_shell_load_world(fe_world_def *def, const fe_restore_options *options, const void *bytes, int64_t size,
                               fe_world **out_world, fe_shell **out_shell);
 fe_result fe_shell_clone_world(const fe_world *source, fe_world_def *def, fe_world **out_world, fe_shell **out_shell);
+void fe_shell_enter(fe_shell *shell);
 void fe_shell_leave(fe_shell *shell);

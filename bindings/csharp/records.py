@@ -21,17 +21,16 @@ PRIVATE = {"fe_query_filter": "NativeFilter",  # what serves instead is written 
            "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh",
            "fe_save": "NativeSave", "fe_save_options": "NativeSaveOptions",
            "fe_restore_options": "NativeRestoreOptions", "fe_difference": "NativeDifference",
-           "fe_array": "NativeBatchArray"}
-FOR_C = {"fe_allocator", "fe_task_system", "fe_recorder_def", "fe_player_def", "fe_player_info", "fe_note",
-         "fe_divergence", "fe_record_flags", "fe_divergence_type"}
+           "fe_array": "NativeBatchArray", "fe_note": "NativeNote", "fe_divergence": "NativeDivergence"}
+FOR_C = {"fe_allocator", "fe_task_system"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong", "char": "byte"}
 SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way",
-            "kept", "own_material", "foreign", "filter"}
+            "kept", "own_material", "foreign", "filter", "has_diverged"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
 FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags",
-         "fe_draw_flags"}
+         "fe_draw_flags", "fe_record_flags"}
 AXES = ["LinearX", "LinearY", "LinearZ", "AngularX", "AngularY", "AngularZ"]  # of a configurable joint, by fe_dof
 
 

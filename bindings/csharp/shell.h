@@ -14,7 +14,7 @@
 
 typedef struct fe_shell {
     void *world;      // the block that stays; NULL until the world is there
-    atomic_int users; // the world, and its managed object
+    atomic_int users; // the world, its managed object, and recorders, whose memory is of the world's allocator
 } fe_shell;
 
 #ifdef _WIN32 // has no aligned_alloc, and its free takes no aligned block
@@ -25,6 +25,8 @@ static void give_block(void *memory) { _aligned_free(memory); }
 static void *take_block(size_t size, size_t alignment) { return aligned_alloc(alignment, size); }
 static void give_block(void *memory) { free(memory); }
 #endif
+
+static void fe_shell_enter(fe_shell *shell) { (void)atomic_fetch_add(&shell->users, 1); }
 
 static void fe_shell_leave(fe_shell *shell)
 {

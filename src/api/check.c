@@ -18,6 +18,9 @@ fe_result fe__refuse(const char *function, const fe_world *world)
     if (!world) return fe__fail(function, FE_ERROR_ARGUMENT, "world is NULL");
     if (!fe__reader_of_thread()) return fe__report(function, FE_ERROR_MEMORY);
     switch (atomic_load_explicit(&world->owner.occupation, memory_order_acquire)) {
+    case FE__SHOWN:
+        return fe__fail(function, FE_ERROR_STATE,
+                        "the world is a player's, to be read; clone it, or take it by fe_player_release");
     case FE__STEP:
         return fe__fail(function, FE_ERROR_STEPPING, "the world is in a step; call it when fe_world_step has returned");
     case FE__CLOSING:

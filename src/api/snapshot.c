@@ -11,6 +11,7 @@
 #include "store/asset_bytes.h"
 #include "world/joints.h"
 #include "world/lifetime.h"
+#include "world/shapes.h"
 
 #include <string.h>
 
@@ -344,12 +345,6 @@ static void tell(const fe__snapshot *snapshot, fe_snapshot_info *out_info)
     fe__write_struct(out_info, &info, sizeof info);
 }
 
-static int32_t accept(void *user, const fe_filter_pair *pair)
-{
-    (void)user, (void)pair;
-    return 1;
-}
-
 // A world that nobody sees. An asset that is missing is no fault of the bytes: what rests on it stays unchecked
 static fe_result check_all(const char *function, fe__snapshot *snapshot)
 {
@@ -358,7 +353,7 @@ static fe_result check_all(const char *function, fe__snapshot *snapshot)
     const fe_world_def def = {
         .struct_size = sizeof def, .worker_count = 1, .substeps = 1, .simd = FE_SIMD_AUTO, .number = 1};
     FE_TRY(fe__create_world(function, &def, &world));
-    world->pair_filter = accept;
+    world->pair_filter = fe__accept_pair;
     fe_result result = restore_opened(function, world, &options, snapshot);
     fe__world_destroy(world);
     return result == FE_ERROR_STATE ? FE_OK : result;

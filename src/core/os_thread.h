@@ -37,8 +37,8 @@ typedef struct fe__sleep_place {
 #endif
 } fe__sleep_place;
 
-// Signals sent to the process are the host's: their handlers do not run on such a thread. Faults and what is sent to the
-// thread itself reach it. 0: there is no thread to be had.
+// Signals sent to the process are the host's: their handlers do not run on such a thread. Faults and what is sent to
+// the thread itself reach it. 0: there is no thread to be had.
 int fe__os_thread_start(fe__os_thread *thread, void (*work)(void *argument), void *argument);
 void fe__os_thread_join(fe__os_thread *thread);
 void fe__os_yield(void);

@@ -18,9 +18,10 @@
 
 typedef enum fe__occupation {
     FE__NOBODY = 0,
-    FE__WRITER = 1,
-    FE__STEP = 2, // a step, or what else refuses readers by FE_ERROR_STEPPING
-    FE__CLOSING = 3
+    FE__SHOWN = 1, // a player's, between its calls: readers may enter, writers may not
+    FE__WRITER = 2,
+    FE__STEP = 3, // a step, or what else refuses readers by FE_ERROR_STEPPING
+    FE__CLOSING = 4
 } fe__occupation;
 
 typedef struct fe__owner {
@@ -53,6 +54,13 @@ static inline void fe__owner_leave(fe__owner *owner)
     atomic_store_explicit(&owner->occupation, FE__NOBODY, memory_order_release);
 }
 
+// By whom it belongs to: others may read it, and no more.
+static inline void fe__owner_show(fe__owner *owner)
+{
+    atomic_store_explicit(&owner->occupation, FE__SHOWN, memory_order_release);
+}
+static inline void fe__owner_take_back(fe__owner *owner) { fe__owner_leave(owner); }
+
 // From writer to step or closing, when no reader is inside. 0: one is, and the caller is still the writer.
 int fe__owner_be_alone(fe__owner *owner, fe__occupation as);
 
@@ -65,7 +73,7 @@ static inline fe__reader *fe__reader_enter(const fe__owner *owner)
     fe__reader *reader = fe__reader_of_thread();
     if (!reader || reader->depth == FE__READER_DEPTH) return NULL;
     atomic_store_explicit(&reader->inside[reader->depth], owner, memory_order_seq_cst);
-    if (atomic_load_explicit(&owner->occupation, memory_order_seq_cst) != FE__NOBODY) {
+    if (atomic_load_explicit(&owner->occupation, memory_order_seq_cst) > FE__SHOWN) {
         atomic_store_explicit(&reader->inside[reader->depth], NULL, memory_order_release);
         return NULL;
     }

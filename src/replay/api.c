@@ -3,6 +3,7 @@
 #include "replay/play.h"
 #include "replay/player_world.h"
 #include "state/format.h"
+#include "world/shapes.h"
 
 #include <string.h>
 
@@ -65,10 +66,21 @@ fe_result fe_player_create(const fe_player_def *def, fe_player **out_player)
     return FE_OK;
 }
 
+// Whoever else has the world reads it: what is written goes by the recording
+static void take_back(fe_player *player)
+{
+    if (player->world) fe__owner_take_back(&player->world->owner);
+}
+static void show(fe_player *player)
+{
+    if (player->world) fe__owner_show(&player->world->owner);
+}
+
 fe_result fe_player_destroy(fe_player *player)
 {
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(player);
+    take_back(player);
     fe__player_close_world(player);
     fe__file_free(&player->file);
     fe__in_free(&player->in);
@@ -93,7 +105,10 @@ fe_result fe_player_step(fe_player *player)
 {
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(player);
-    return fe__player_step(function, player);
+    take_back(player);
+    fe_result result = fe__player_step(function, player);
+    show(player);
+    return result;
 }
 
 fe_result fe_player_seek(fe_player *player, int64_t step)
@@ -101,7 +116,10 @@ fe_result fe_player_seek(fe_player *player, int64_t step)
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(player);
     FE_CHECK_INT(step, 0, INT64_MAX);
-    return fe__player_seek(function, player, step);
+    take_back(player);
+    fe_result result = fe__player_seek(function, player, step);
+    show(player);
+    return result;
 }
 
 static fe_result check_world(const char *function, const fe_player *player)
@@ -120,12 +138,6 @@ fe_result fe_player_get_world(const fe_player *player, const fe_world **out_worl
     return FE_OK;
 }
 
-static int32_t accept(void *user, const fe_filter_pair *pair)
-{
-    (void)user, (void)pair;
-    return 1;
-}
-
 fe_result fe_player_release(fe_player *player, fe_world **out_world)
 {
     FE_BEGIN_WITHOUT_WORLD();
@@ -133,7 +145,8 @@ fe_result fe_player_release(fe_player *player, fe_world **out_world)
     FE_CHECK_POINTER(out_world);
     FE_TRY(check_world(function, player));
     fe_world *world = player->world;
-    if (world->pair_filter) world->pair_filter = accept, world->pair_filter_user = NULL;
+    if (world->pair_filter) world->pair_filter = fe__accept_pair, world->pair_filter_user = NULL;
+    fe__owner_take_back(&world->owner);
     player->world = NULL;
     player->asset_count = 0; // they are its store's
     *out_world = world;

@@ -2,6 +2,7 @@
 #include "state/state.h"
 
 #include "world/lifetime.h"
+#include "world/shapes.h"
 
 static fe__registry states = {.lock = FE_MUTEX_INITIAL};
 
@@ -55,6 +56,14 @@ void fe__state_destroy(fe_state *state)
 int32_t fe__state_lives(const fe_state *state) { return fe__registry_has(&states, &state->entry); }
 
 // ---- clones --------------------------------------------------------------------------------------------------------
+// What a player's world asks is that player
+static void take_filter(fe_world *world, const fe_world *source)
+{
+    int32_t is_players = atomic_load_explicit(&source->owner.occupation, memory_order_relaxed) == FE__SHOWN;
+    world->pair_filter = source->pair_filter, world->pair_filter_user = source->pair_filter_user;
+    if (is_players && world->pair_filter) world->pair_filter = fe__accept_pair, world->pair_filter_user = NULL;
+}
+
 fe_result fe__world_create_as(const fe__held *held, const fe_world *source, const fe_world_def *def,
                               fe_world **out_world)
 {
@@ -66,7 +75,7 @@ fe_result fe__world_create_as(const fe__held *held, const fe_world *source, cons
         fe__world_destroy(world);
         return result;
     }
-    world->pair_filter = source->pair_filter, world->pair_filter_user = source->pair_filter_user;
+    take_filter(world, source);
     *out_world = world;
     return FE_OK;
 }

@@ -236,6 +236,12 @@ void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32
     mark_moved(world, index);
 }
 
+int32_t fe__accept_pair(void *user, const fe_filter_pair *pair)
+{
+    (void)user, (void)pair;
+    return 1;
+}
+
 void fe__world_judge_anew(fe_world *world)
 {
     for (int32_t pair = 1; pair < world->pair_limit; ++pair) {

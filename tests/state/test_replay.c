@@ -278,6 +278,48 @@ static void a_released_world_goes_on_alone(void **state)
     recorded_free(&r);
 }
 
+static fe_world *writable(const fe_player *player)
+{
+    const fe_world *world;
+    FE_TRUE(fe_player_get_world(player, &world) == FE_OK);
+    return (fe_world *)(uintptr_t)world; // as a host would that casts const away
+}
+
+static void a_played_world_is_only_read(void **state)
+{
+    (void)state;
+    uint64_t hash;
+    fe_body body;
+    recorded r = falling(FE_RECORD_ASSETS, 60, &body, &hash);
+    fe_player *player;
+    FE_TRUE(fe_player_create(NULL, &player) == FE_OK);
+    FE_TRUE(fe_player_feed(player, r.bytes, r.size) == FE_OK);
+    FE_TRUE(fe_player_seek(player, 40) == FE_OK);
+    fe_world *world = writable(player), *clone;
+    uint64_t here = hash_of(world);
+    fe_vec3 still = {0.0f, 0.0f, 0.0f};
+    fe_body made;
+    fe_recorder *recorder;
+    fe_history *history;
+    assert_int_equal(fe_world_step(world, dt), FE_ERROR_STATE);
+    assert_int_equal(fe_body_create(world, NULL, &made), FE_ERROR_STATE);
+    assert_int_equal(fe_body_set_linear_velocity(world, body, &still), FE_ERROR_STATE);
+    assert_int_equal(fe_body_destroy(world, body), FE_ERROR_STATE);
+    assert_int_equal(fe_world_set_pair_filter(world, NULL, NULL), FE_ERROR_STATE);
+    assert_int_equal(fe_recorder_create(world, NULL, &recorder), FE_ERROR_STATE);
+    assert_int_equal(fe_history_create(world, NULL, &history), FE_ERROR_STATE);
+    assert_int_equal(fe_world_destroy(world), FE_ERROR_STATE);
+    FE_TRUE(strstr(fe_last_error(), "clone") != NULL);
+    FE_TRUE(hash_of(world) == here);
+    FE_TRUE(fe_world_clone(world, NULL, &clone) == FE_OK);
+    steps(clone, 20);
+    FE_TRUE(hash_of(clone) == hash);
+    FE_TRUE(fe_player_seek(player, 60) == FE_OK && hash_of(writable(player)) == hash);
+    assert_int_equal(fe_world_step(writable(player), dt), FE_ERROR_STATE);
+    FE_TRUE(fe_player_destroy(player) == FE_OK && fe_world_destroy(clone) == FE_OK);
+    recorded_free(&r);
+}
+
 // ---- filters, restores, grounds ------------------------------------------------------------------------------------
 static int32_t every_other(void *user, const fe_filter_pair *pair)
 {
@@ -308,9 +350,18 @@ static void answers_of_a_filter_are_played(void **state)
     played p = recorded_play(r.bytes, r.size, 2, FE_SIMD_PLAIN, 0);
     if (p.result != FE_END) fail_msg("%s", fe_last_error());
     FE_TRUE(recorded_hash(p.player) == hash);
-    FE_TRUE(fe_player_seek(p.player, 33) == FE_OK && fe_player_seek(p.player, 80) == FE_OK);
+    FE_TRUE(fe_player_seek(p.player, 33) == FE_OK);
+    fe_world *clone;
+    fe_batch *batch;
+    FE_TRUE(fe_world_clone(writable(p.player), NULL, &clone) == FE_OK);
+    FE_TRUE(fe_batch_create(writable(p.player), NULL, &batch) == FE_OK);
+    FE_TRUE(fe_player_seek(p.player, 80) == FE_OK);
     FE_TRUE(recorded_hash(p.player) == hash);
     FE_TRUE(fe_player_destroy(p.player) == FE_OK);
+    for (int32_t i = 0; i < 4; ++i) add_box(clone, 0.2 * i, 3.0, 0.0, 1); // new pairs, and no player to ask
+    steps(clone, 60);
+    FE_TRUE(fe_batch_step(batch, dt, 60, NULL, NULL) == 0);
+    FE_TRUE(fe_batch_destroy(batch) == FE_OK && fe_world_destroy(clone) == FE_OK);
     recorded_free(&r);
 }
 
@@ -741,6 +792,7 @@ int main(void)
         cmocka_unit_test(keyframes_compare_all),
         cmocka_unit_test(seeks_both_ways),
         cmocka_unit_test(a_released_world_goes_on_alone),
+        cmocka_unit_test(a_played_world_is_only_read),
         cmocka_unit_test(answers_of_a_filter_are_played),
         cmocka_unit_test(restores_are_played),
         cmocka_unit_test(rollback_is_played),

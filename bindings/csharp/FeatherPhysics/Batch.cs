@@ -109,7 +109,7 @@ namespace FeatherPhysics
                     lock (worlds)
                     {
                         if (disposed) ThrowDisposed();
-                        return worlds[index] ?? (worlds[index] = new World(safe, world, store));
+                        return worlds[index] ?? (worlds[index] = new World(safe, safe.Store, world, store));
                     }
                 }
                 finally { Leave(held); }

@@ -223,6 +223,8 @@ namespace FeatherPhysics
         public void Step(float dt)
         {
             Native.world_step(P, dt);
+            Recording current = recording;
+            if (current != null) current.AfterStep();
             GC.KeepAlive(this);
             ExceptionDispatchInfo first = TakeThrown();
             if (first != null) first.Throw();

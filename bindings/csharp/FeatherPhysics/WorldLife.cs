@@ -30,7 +30,7 @@ namespace FeatherPhysics
         {
             public Pool.PoolHandle Pool;    // held until the world is gone, as is the store
             public Store.StoreHandle Store;
-            public Batch.BatchHandle Batch; // of a batch's world, which goes with it
+            public SafeHandle Owner;        // of a batch's or a player's world, which goes with that
             public GCHandle Judge;          // names the world in calls of its pair filter
 
             public WorldHandle() : base(IntPtr.Zero, true) { }
@@ -40,7 +40,7 @@ namespace FeatherPhysics
             // Calls that are inside end soon: no new ones begin.
             protected override bool ReleaseHandle()
             {
-                if (Batch != null)
+                if (Owner != null)
                 {
                     Drop();
                     return true;
@@ -61,8 +61,8 @@ namespace FeatherPhysics
                 if (Pool != null) Pool.DangerousRelease();
                 if (Store != null) Store.DangerousRelease();
                 if (Judge.IsAllocated) Judge.Free();
-                if (Batch != null) Batch.DangerousRelease();
-                Batch = null;
+                if (Owner != null) Owner.DangerousRelease();
+                Owner = null;
                 Pool = null;
                 Store = null;
             }
@@ -111,24 +111,24 @@ namespace FeatherPhysics
             finally { if (held) source.Release(); }
         }
 
-        /// One of a batch's worlds. It keeps the batch's memory as long as it can be reached.
-        internal World(Batch.BatchHandle batch, IntPtr world, Store store)
+        /// One of a batch's worlds, or a player's. It keeps the owner's memory as long as it can be reached.
+        internal World(SafeHandle owner, Store.StoreHandle ofStore, IntPtr world, Store store)
         {
             bool held = false;
-            batch.DangerousAddRef(ref held);
-            safe.Batch = batch;
-            if (batch.Store != null)
+            owner.DangerousAddRef(ref held);
+            safe.Owner = owner;
+            if (ofStore != null)
             {
                 held = false;
-                batch.Store.DangerousAddRef(ref held);
-                safe.Store = batch.Store;
+                ofStore.DangerousAddRef(ref held);
+                safe.Store = ofStore;
                 this.store = store;
             }
             safe.Set(world);
             pointer = world;
         }
 
-        /// Its batch is disposed: later calls throw.
+        /// Its batch or player is disposed: later calls throw.
         internal void End() { pointer = IntPtr.Zero; }
 
         /// The store that it was made with; null: it has its own.
@@ -190,11 +190,13 @@ namespace FeatherPhysics
 
         /// <summary>
         /// Destroys the world and all in it. Calls of other threads that are inside end first; those that begin later
-        /// throw. WorldSteppingException inside the world's own pair filter, WrongStateException for a batch's world.
+        /// throw. WorldSteppingException inside the world's own pair filter, WrongStateException for a world of a batch or
+        /// a player.
         /// </summary>
         public void Dispose()
         {
-            if (safe.Batch != null) throw new WrongStateException("World.Dispose: the world goes with its batch");
+            if (safe.Owner != null)
+                throw new WrongStateException("World.Dispose: the world goes with its batch or player");
             if (IsJudging) throw new WorldSteppingException("World.Dispose: called by the world's own pair filter");
             pointer = IntPtr.Zero;
             safe.Dispose();
@@ -228,6 +230,13 @@ namespace FeatherPhysics
             if (!IsJudging) safe.DangerousAddRef(ref held);
         }
         internal void Release() { safe.DangerousRelease(); }
+
+        /// The memory of the world itself, for one more user, until it calls shell_leave. null: its owner has it.
+        internal void* EnterShell()
+        {
+            if (shell.Pointer != null) Native.shell_enter(shell.Pointer);
+            return shell.Pointer;
+        }
 
         internal enum Kind { Body, Shape, Joint }
 
