@@ -320,7 +320,7 @@ docs:
 include $(wildcard bindings/*/rules.mk tools/*/rules.mk)
 
 # the scene that every language plays; what calls cost in C
-$(BUILD)/feather-scenario $(BUILD)/feather-cost: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)
+$(BUILD)/feather-scenario $(BUILD)/feather-cost $(BUILD)/feather-play: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)
 	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 # ---- install --------------------------------------------------------------------------------------------------------------------

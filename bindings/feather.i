@@ -48,8 +48,8 @@
 #endif
 
 #if !defined(SWIGPYTHON) && !defined(SWIGCSHARP)
-// Recordings: for hosts in C, Python and C#.
-%rename("$ignore", regexmatch$name="^fe_(recorder|player|divergence)(_(?!type$)[a-z_]+)?$") "";
+// Players: for hosts in C, Python and C#. Lua has recorders, too.
+%rename("$ignore", regexmatch$name="^fe_(player|divergence)(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_note;
 #endif
 

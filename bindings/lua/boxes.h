@@ -37,6 +37,13 @@ typedef struct history_box {
     const world_box *owner; ///< its world, with which it ends
 } history_box;
 
+typedef struct recorder_box {
+    const void *type;
+    int own;
+    fe_recorder *recorder; ///< NULL: closed. It outlives its world
+} recorder_box;
+
+static const char recorder_type[] = "feather.recorder";
 static const char history_type[] = "feather.history";
 static const char world_type[] = "feather.world";
 static const char pool_type[] = "feather.pool";
@@ -74,6 +81,15 @@ static int collect_history(lua_State *L)
     return 0;
 }
 
+// In a step of its world, which the pair filter may be in, it is refused, and ends with the world
+static int collect_recorder(lua_State *L)
+{
+    recorder_box *box = luaL_checkudata(L, 1, recorder_type);
+    if (box->recorder) (void)fe_recorder_destroy(box->recorder);
+    box->recorder = NULL;
+    return 0;
+}
+
 static void add_type(lua_State *L, const char *name, lua_CFunction collect)
 {
     luaL_newmetatable(L, name);
@@ -90,6 +106,7 @@ static void add_types(lua_State *L)
     add_type(L, pool_type, collect_pool);
     add_type(L, store_type, collect_store);
     add_type(L, history_type, collect_history);
+    add_type(L, recorder_type, collect_recorder);
 }
 
 // ---- what an object keeps alive -------------------------------------------------------------------------------------
@@ -192,6 +209,14 @@ static void push_history(lua_State *L, fe_history *history)
     keep_alive(L, 1);
 }
 
+static void push_recorder(lua_State *L, fe_recorder *recorder)
+{
+    recorder_box *box = lua_newuserdata(L, sizeof *box);
+    *box = (recorder_box){.type = SWIGTYPE_p_fe_recorder, .recorder = recorder};
+    luaL_getmetatable(L, recorder_type);
+    lua_setmetatable(L, -2);
+}
+
 // ---- reading them ---------------------------------------------------------------------------------------------------
 
 /// `check_` and `to_`: the second is asked again when all arguments are converted, since a table's __index may destroy.
@@ -237,6 +262,25 @@ static fe_history *to_history(lua_State *L, int index)
     const history_box *box = box_at(L, index, history_type, "history");
     if (!box->history || !box->owner->world) fail(L, "feather: the history is destroyed");
     return box->history;
+}
+
+static fe_recorder *to_recorder(lua_State *L, int index)
+{
+    const recorder_box *box = box_at(L, index, recorder_type, "recorder");
+    if (!box->recorder) fail(L, "feather: the recorder is closed");
+    return box->recorder;
+}
+
+/// recorder_read(recorder): a string of what waits
+static int recorder_read(lua_State *L)
+{
+    fe_recorder *recorder = to_recorder(L, 1);
+    int64_t waiting, size = 0;
+    if (fe_recorder_read(recorder, NULL, 0, &waiting) < 0) return raise_last(L);
+    void *bytes = lua_newuserdata(L, waiting > 0 ? (size_t)waiting : 1);
+    if (waiting > 0 && fe_recorder_read(recorder, bytes, waiting, &size) < 0) return raise_last(L);
+    lua_pushlstring(L, bytes, (size_t)size);
+    return 1;
 }
 
 #endif

@@ -86,6 +86,17 @@
 %}
 %typemap(argout) const fe_history * ""
 
+%typemap(in, numinputs=0) fe_recorder **out_recorder (fe_recorder *made = 0) "$1 = &made;"
+%typemap(argout) fe_recorder **out_recorder %{ push_recorder(L, *$1); SWIG_arg++; %}
+%typemap(in) fe_recorder * (call_state call) "$1 = to_recorder(L, $input); call = (call_state){0}; (void)call;"
+%typemap(check) fe_recorder * "$1 = to_recorder(L, $argnum);"
+%typemap(argout) fe_recorder *recorder %{
+    if (strcmp("$symname", "recorder_destroy") == 0) ((recorder_box *)lua_touserdata(L, 1))->recorder = NULL;
+%}
+%typemap(in) const char *text "$1 = (char *)to_text(L, $input, \"$1_name\");"
+%native(recorder_read) int recorder_read(lua_State *L);
+%ignore fe_recorder_read;
+
 // ---- results and numbers --------------------------------------------------------------------------------------------
 
 %typemap(out) fe_result %{

@@ -43,6 +43,17 @@ static long long to_integer(lua_State *L, int index, long long low, long long hi
     return (long long)number;
 }
 
+/// A string without zeros in it
+static const char *to_text(lua_State *L, int index, const char *what)
+{
+    size_t size;
+    if (lua_type(L, index) != LUA_TSTRING)
+        fail(L, "feather: %s: a string is needed, not a %s", what, luaL_typename(L, index));
+    const char *text = lua_tolstring(L, index, &size);
+    if (strlen(text) != size) fail(L, "feather: %s: it has a zero in it", what);
+    return text;
+}
+
 static void push_integer(lua_State *L, long long value)
 {
 #if LUA_VERSION_NUM >= 503

@@ -31,6 +31,7 @@ local Box = ffi.typeof("struct { fe_world *const p; fe_pool *const pool; fe_stor
 local PoolBox = ffi.typeof("struct { fe_pool *const p; }")
 local StoreBox = ffi.typeof("struct { fe_store *const p; }")
 local HistoryBox = ffi.typeof("struct { fe_history *const p; }")
+local RecorderBox = ffi.typeof("struct { fe_recorder *const p; }")
 local env = { C = C, ffi = ffi, tonumber = tonumber, type = type, math = math }
 
 -- ---- worlds, pools and stores ---------------------------------------------------------------------------------------
@@ -94,6 +95,17 @@ function env.new_history(pointer, world)
     return box
 end
 
+function env.recorder(box)
+    if not ffi.istype(RecorderBox, box) then fail("a recorder is needed, not a %s", type(box)) end
+    if box.p == nil then fail("the recorder is closed") end
+    return box.p
+end
+-- In a step of its world, which the pair filter may be in, it is refused, and ends with the world.
+local function end_recorder(box)
+    if box.p ~= nil then C.fe_recorder_destroy(box.p) end
+end
+function env.new_recorder(pointer) return ffi.gc(RecorderBox(pointer), end_recorder) end
+
 local function end_world(box)
     if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then env.forget(box) end
 end
@@ -124,9 +136,10 @@ local ABSENT = {
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
     fe_snapshot_compare = true, fe_world_clone = true, fe_world_set_state = true,
+    fe_recorder_read = true, fe_recorder_note = true,
 }
 -- for hosts in C
-local FOR_C = { "^fe_recorder", "^fe_player", "^fe_div", "^fe_batch", "^fe_state", "^fe_array" }
+local FOR_C = { "^fe_player", "^fe_div", "^fe_batch", "^fe_state", "^fe_array" }
 local function is_for_c(name)
     for _, front in ipairs(FOR_C) do
         if name:find(front) then return true end

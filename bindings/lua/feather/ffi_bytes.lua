@@ -93,6 +93,29 @@ function core.snapshot_get_assets(bytes)
     return count, keys
 end
 
+-- ---- recordings -----------------------------------------------------------------------------------------------------
+
+local size = ffi.new("int64_t[1]")
+function core.recorder_read(recorder)
+    local pointer = env.recorder(recorder)
+    env.check(tonumber(C.fe_recorder_read(pointer, nil, 0, size)))
+    local waiting = tonumber(size[0])
+    if waiting == 0 then return "" end
+    local bytes = ffi.new("char[?]", waiting)
+    env.check(tonumber(C.fe_recorder_read(pointer, bytes, waiting, size)))
+    return ffi.string(bytes, tonumber(size[0]))
+end
+
+function core.recorder_note(recorder, about, text)
+    local pointer = env.recorder(recorder)
+    about = env.integer(about, 0, 2 ^ 53, "about")
+    if type(text) ~= "string" then fail("text: a string is needed, not a %s", type(text)) end
+    if text:find("%z") then fail("text: it has a zero in it") end
+    env.check(tonumber(C.fe_recorder_note(pointer, about, text)))
+end
+
+-- ---- differences ----------------------------------------------------------------------------------------------------
+
 core.text = ffi.string
 local Difference = ffi.typeof("fe_difference")
 function core.snapshot_compare(a, b)

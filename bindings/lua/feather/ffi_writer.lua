@@ -32,7 +32,9 @@ local ARRAYS = {
     floats = 'floats(%s, 6, count, "floats")',
     values = 'floats(%s, 1, count, "values")',
 }
-local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store", fe_history = "history" }
+local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store", fe_history = "history",
+    fe_recorder = "recorder",
+}
 local TABLES = {
     fe_query_filter = "filter", fe_heightfield_def = "heightfield", fe_hull_def = "hull", fe_mesh_def = "mesh",
 }
@@ -47,6 +49,7 @@ local PLURAL = {
 }
 local DESTROYED = {
     fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true, fe_history_destroy = true,
+    fe_recorder_destroy = true,
 }
 
 -- ---- parameters: each adds to the function f its argument, code before the call, the call's argument, results -------

@@ -51,6 +51,7 @@ function World:getUserData() return self.data[0] end
 -- pair filter or of a callback is raised when all are done: the first one.
 function World:update(dt)
     core.world_step(self.native, dt)
+    if self.recording then self.recording:afterStep() end
     local failed = self.filterError
     self.filterError = nil
     if next(self.callbacks) then
