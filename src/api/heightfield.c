@@ -112,7 +112,7 @@ static fe_result set_heights(const char *function, fe_store *store, fe_asset ass
     const fe__assets_entered users = {&index, 1, NULL};
     fe_result entered = fe__assets_enter_worlds(store, &users);
     if (entered != FE_OK) {
-        const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
+        const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside, or a player";
         return fe__fail(function, entered, "a world that uses asset 0x%llx %s; nothing was changed", asset, why);
     }
     fe__heightfield_edit(store, index, part, heights);
