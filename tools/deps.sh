@@ -26,6 +26,7 @@ missing_for_python() {
     python_has build.env || echo python3-build
     python_has pytest || echo python3-pytest
     python_has numpy || echo python3-numpy
+    test -f /usr/include/mujoco/mujoco.h || echo libmujoco-dev
     python_has matplotlib || echo python3-matplotlib
     python_has nbconvert || echo jupyter-nbconvert
     python_has ipykernel || echo python3-ipykernel
@@ -141,7 +142,6 @@ missing() {
         pkg-config --exists bullet 2> /dev/null || echo libbullet-dev
         pkg-config --exists ode 2> /dev/null || echo libode-dev
         pkg-config --exists box2d 2> /dev/null || echo libbox2d-dev
-        test -f /usr/include/mujoco/mujoco.h || echo libmujoco-dev
         has clang-format || echo clang-format
     fi
 }

@@ -160,9 +160,9 @@ class Scene:
 
     def to_json(self) -> str:
         """As text, in which every number is exact."""
-        record = {"format": FORMAT, "version": VERSION, "name": self.name}
-        record["bodies"] = [asdict(body) for body in self.bodies]  # type: ignore[assignment]
-        record["joints"] = [asdict(joint) for joint in self.joints]  # type: ignore[assignment]
+        record: Dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": self.name}
+        record["bodies"] = [asdict(body) for body in self.bodies]
+        record["joints"] = [asdict(joint) for joint in self.joints]
         return json.dumps(record, indent=1, allow_nan=False)
 
     @classmethod
@@ -239,7 +239,7 @@ def _make_body(world: World, body: SceneBody, position: Sequence[float], rotatio
     made = world.create_body(body.type, position=place, rotation=turn)
     try:
         for shape in body.shapes:
-            settings = {"position": shape.position, "rotation": shape.rotation, "density": shape.density, **options}
+            settings: Dict[str, Any] = {"position": shape.position, "rotation": shape.rotation, "density": shape.density, **options}
             if shape.friction is not None:
                 settings["material"] = Material(static_friction=shape.friction, dynamic_friction=shape.friction)
             made.add(shape.geometry(), **settings)
