@@ -16,6 +16,7 @@
 #   make viewer     build/viewer.html, a page that plays recordings; make test-viewer: its tests
 #   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
 #   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
+#   make amalgamation   the library as one file: build/amalgamation/feather.c, and its header
 #   make packages   packages for every language and target in build/packages; make test-packages: installs each, runs its first program
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
@@ -306,6 +307,13 @@ gallery: $(BUILD)/feather-picture$(EXE)
 	@mkdir -p docs/images
 	@for scene in $$($< --list); do echo "  docs/images/$$scene.png"; $< $$scene docs/images/$$scene.png || exit 1; done
 	@$< --page > docs/gallery.html
+
+# ---- one file -------------------------------------------------------------------------------------------------------------------
+
+.PHONY: amalgamation
+amalgamation:
+	@tools/deps.sh amalgamation
+	$(RUN)CC='$(CC)' tools/amalgamate $(BUILD)/amalgamation
 
 # ---- docs -----------------------------------------------------------------------------------------------------------------------
 

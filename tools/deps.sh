@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp, wasm: JavaScript), the site of the API
-# (docs) and the bench (all) need beyond the C compiler: installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
+# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp, wasm: JavaScript), the library
+# in one file (amalgamation), the site of the API (docs) and the bench (all) need beyond the C compiler: installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -63,6 +63,11 @@ missing_for_lua() {
     has lua5.4 && lua5.4 -e 'require("luaunit")' 2> /dev/null || echo lua-unit
 }
 
+missing_for_amalgamation() {
+    has python3 || echo python3
+    ctags --version 2> /dev/null | grep -q Universal || echo universal-ctags
+}
+
 # The runtime is that of the clang that is there.
 missing_for_wasm() {
     has llvm-ar || echo llvm
@@ -118,7 +123,7 @@ missing_for_foreign() {
 # Prints the missing packages, by their Debian names.
 missing() {
     case $wanted in
-    check | python | lua | csharp | docs | wasm) "missing_for_$wanted"; return ;;
+    check | python | lua | csharp | docs | wasm | amalgamation) "missing_for_$wanted"; return ;;
     esac
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
@@ -128,7 +133,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_windows; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_windows; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; missing_for_amalgamation; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

@@ -146,7 +146,7 @@ static int32_t tell_faults(const char *function, const fe_batch *b, int32_t *out
 }
 
 // ---- arrays --------------------------------------------------------------------------------------------------------
-static fe_result check_items(const char *function, const fe__field *field, const fe_array *given)
+static fe_result check_items(const char *function, const fe__batch_field *field, const fe_array *given)
 {
     if (field->kind) FE_CHECK_ARRAY(given->items, given->item_count);
     if (!field->kind && (given->items || given->item_count != 1))
@@ -195,7 +195,7 @@ static fe_result read_array(const char *function, const fe_batch *b, const fe_ar
     FE_READ_STRUCT(array, &full);
     FE_CHECK_INT(full.item_count, 1, MOST_ITEMS);
     FE_CHECK_BOOL(full.is_double);
-    const fe__field *field = fe__field_of(full.field);
+    const fe__batch_field *field = fe__field_of(full.field);
     if (!field) return fe__fail(function, FE_ERROR_ARGUMENT, "field is %d, of which there is none", (int)full.field);
     if (is_written ? !field->write : !field->read)
         return fe__fail(function, FE_ERROR_ARGUMENT, "field %d is not %s", (int)full.field,

@@ -11,7 +11,7 @@
 
 enum { COORDINATE_FLOATS = 2, REACTION_FLOATS = 6 };
 
-static void read_row(const fe_world *world, const fe__field *field, fe_joint joint, void *out_floats)
+static void read_row(const fe_world *world, const fe__batch_field *field, fe_joint joint, void *out_floats)
 {
     static const fe__field_frame frame = {{0.0, 0.0, 0.0}, {0.0f, 0.0f, 0.0f, 1.0f}};
     double row[FE__MOST_COMPONENTS];
@@ -26,7 +26,7 @@ static void read_row(const fe_world *world, const fe__field *field, fe_joint joi
 static fe_result read_rows(const char *function, const fe_world *world, int32_t which, const fe_joint *joints,
                            float *out_floats, uint32_t stride, int32_t count)
 {
-    const fe__field *field = fe__field_of(which);
+    const fe__batch_field *field = fe__field_of(which);
     for (int32_t i = 0; i < count; ++i) {
         FE_FIND_JOINT(index, joints[i]);
         (void)index;
@@ -55,7 +55,7 @@ static fe_result refuse(const char *function, fe_result result, const fe_joint *
 static fe_result write_rows(const char *function, fe_world *world, int32_t which, const fe_joint *joints,
                             const float *values, uint32_t stride, int32_t count)
 {
-    const fe__field *field = fe__field_of(which);
+    const fe__batch_field *field = fe__field_of(which);
     for (int32_t i = 0; i < count; ++i) {
         FE_FIND_JOINT(index, joints[i]);
         double value = value_at(values, stride, i);

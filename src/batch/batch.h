@@ -11,7 +11,7 @@
 
 // A caller's array: (world, item, component), packed
 typedef struct fe__batch_array {
-    const fe__field *field;
+    const fe__batch_field *field;
     const fe_handle *items; // of the field's kind; NULL: the world itself, which is one
     int32_t item_count;
     int32_t is_double; // else floats

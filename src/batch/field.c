@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-fe_result fe__field_find(const fe_world *world, const fe__field *field, fe_handle item, int32_t *out_index)
+fe_result fe__field_find(const fe_world *world, const fe__batch_field *field, fe_handle item, int32_t *out_index)
 {
     *out_index = 0;
     if (!field->kind) return FE_OK;
@@ -189,9 +189,9 @@ static fe_result write_force_of_joint(fe_world *w, int32_t joint, const double *
     return FE_OK;
 }
 
-int32_t fe__field_pushed(const fe__field *field) { return field->kind == FE_KIND_JOINT ? 2 : 1; }
+int32_t fe__field_pushed(const fe__batch_field *field) { return field->kind == FE_KIND_JOINT ? 2 : 1; }
 
-int32_t fe__field_keep_forces(const fe_world *w, const fe__field *field, int32_t index, fe__kept_force *out)
+int32_t fe__field_keep_forces(const fe_world *w, const fe__batch_field *field, int32_t index, fe__kept_force *out)
 {
     const int32_t *bodies = field->kind == FE_KIND_JOINT ? w->joint_records[index].body : &index;
     int32_t count = fe__field_pushed(field);
@@ -257,9 +257,9 @@ static void read_reaction(const fe_world *w, int32_t joint, const fe__field_fram
 }
 
 // ---- the table -----------------------------------------------------------------------------------------------------
-const fe__field *fe__field_of(int32_t field)
+const fe__batch_field *fe__field_of(int32_t field)
 {
-    static const fe__field fields[] = {
+    static const fe__batch_field fields[] = {
         [FE_FIELD_TRANSFORM] = {7, FE_KIND_BODY, read_transform, takes_transform, write_transform, 0},
         [FE_FIELD_VELOCITY] = {6, FE_KIND_BODY, read_velocity, takes_velocity, write_velocity, 0},
         [FE_FIELD_FORCE] = {6, FE_KIND_BODY, NULL, takes_force, write_force, 1},

@@ -11,7 +11,7 @@ typedef struct fe__field_frame {
     fe_quat rotation;
 } fe__field_frame;
 
-typedef struct fe__field {
+typedef struct fe__batch_field {
     int32_t components; // numbers in a row
     int32_t kind;       // FE_KIND_BODY, FE_KIND_JOINT; 0: the world itself
     // NULL: it is not read
@@ -21,11 +21,11 @@ typedef struct fe__field {
     fe_result (*takes)(const fe_world *world, int32_t item, const double *row);
     fe_result (*write)(fe_world *world, int32_t item, const double *row); // one that may be; FE_ERROR_MEMORY
     int32_t is_of_a_step;                                                 // 1: what is written acts for one step
-} fe__field;
+} fe__batch_field;
 
-const fe__field *fe__field_of(int32_t field); // fe_field; NULL: there is none
+const fe__batch_field *fe__field_of(int32_t field); // fe_field; NULL: there is none
 // The record that a handle names, and of what kind it must be. FE_ERROR_STALE, FE_ERROR_KIND
-fe_result fe__field_find(const fe_world *world, const fe__field *field, fe_handle item, int32_t *out_index);
+fe_result fe__field_find(const fe_world *world, const fe__batch_field *field, fe_handle item, int32_t *out_index);
 
 // A force acts for one step. One that fails leaves it on the body, so what was there before is kept.
 typedef struct fe__kept_force {
@@ -33,9 +33,9 @@ typedef struct fe__kept_force {
     float force[3], torque[3];
 } fe__kept_force;
 
-int32_t fe__field_pushed(const fe__field *field); // bodies that a row of a field of a step pushes, at most
+int32_t fe__field_pushed(const fe__batch_field *field); // bodies that a row of a field of a step pushes, at most
 // Of the bodies that the row of an item pushes. Returns how many
-int32_t fe__field_keep_forces(const fe_world *world, const fe__field *field, int32_t index, fe__kept_force *out);
+int32_t fe__field_keep_forces(const fe_world *world, const fe__batch_field *field, int32_t index, fe__kept_force *out);
 void fe__field_put_back(fe_world *world, const fe__kept_force *kept);
 
 #endif

@@ -47,16 +47,16 @@ static __attribute__((noinline, unused)) fe__tree_box fe__tree_far_box(fe_dvec3 
                           {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
 }
 
-static inline fe__pair fe__tree_pad(fe__pair size) { return size * FE_TREE_ULP + FE_TREE_PAD; }
+static inline fe__doubles fe__tree_pad(fe__doubles size) { return size * FE_TREE_ULP + FE_TREE_PAD; }
 
 // In pairs, as the six coordinates follow each other: the numbers of fe__tree_round_down and fe__tree_round_up
 FE_LANES_INLINE fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
 {
     const fe_dvec3 *o = origin, *l = &bounds->low, *h = &bounds->high;
-    const fe__pair far = {FE_TREE_FAR, FE_TREE_FAR}, outwards = {-1.0, 1.0};
-    fe__pair a = (fe__pair){l->x, l->y} - (fe__pair){o->x, o->y}, size_a = fe__pair_abs(a);
-    fe__pair b = (fe__pair){l->z, h->x} - (fe__pair){o->z, o->x}, size_b = fe__pair_abs(b);
-    fe__pair c = (fe__pair){h->y, h->z} - (fe__pair){o->y, o->z}, size_c = fe__pair_abs(c);
+    const fe__doubles far = {FE_TREE_FAR, FE_TREE_FAR}, outwards = {-1.0, 1.0};
+    fe__doubles a = (fe__doubles){l->x, l->y} - (fe__doubles){o->x, o->y}, size_a = fe__doubles_abs(a);
+    fe__doubles b = (fe__doubles){l->z, h->x} - (fe__doubles){o->z, o->x}, size_b = fe__doubles_abs(b);
+    fe__doubles c = (fe__doubles){h->y, h->z} - (fe__doubles){o->y, o->z}, size_c = fe__doubles_abs(c);
     if (fe__quad_signs((fe__quad_int)(size_a > far) | (fe__quad_int)(size_b > far) | (fe__quad_int)(size_c > far)))
         return fe__tree_far_box(fe__dsub(*l, *o), fe__dsub(*h, *o));
     a = a - fe__tree_pad(size_a), b = b + outwards * fe__tree_pad(size_b), c = c + fe__tree_pad(size_c);

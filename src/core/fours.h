@@ -28,7 +28,7 @@ FE_LANES_INLINE uint32_t fe__four_signs(fe__four_int x) { return (uint32_t)_mm25
 #else
 FE_LANES_INLINE fe__four fe__four_of(fe__quad x)
 {
-    fe__pair a = fe__pair_low(x), b = fe__pair_high(x);
+    fe__doubles a = fe__doubles_low(x), b = fe__doubles_high(x);
     return __builtin_shufflevector(a, b, 0, 1, 2, 3);
 }
 FE_LANES_INLINE fe__quad fe__four_narrow(fe__four x)

@@ -44,22 +44,28 @@ FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__qu
 // one lane in all four
 #define FE_QUAD_SPREAD(x, lane) __builtin_shufflevector(x, x, lane, lane, lane, lane)
 // two doubles
-typedef double fe__pair __attribute__((vector_size(16), may_alias));
-typedef int64_t fe__pair_int __attribute__((vector_size(16)));
-FE_LANES_INLINE fe__pair fe__pair_abs(fe__pair x) { return (fe__pair)((fe__pair_int)x & INT64_MAX); }
-FE_LANES_INLINE fe__pair fe__pair_choose(fe__pair_int mask, fe__pair yes, fe__pair no)
+typedef double fe__doubles __attribute__((vector_size(16), may_alias));
+typedef int64_t fe__doubles_int __attribute__((vector_size(16)));
+FE_LANES_INLINE fe__doubles fe__doubles_abs(fe__doubles x) { return (fe__doubles)((fe__doubles_int)x & INT64_MAX); }
+FE_LANES_INLINE fe__doubles fe__doubles_choose(fe__doubles_int mask, fe__doubles yes, fe__doubles no)
 {
-    return (fe__pair)((mask & (fe__pair_int)yes) | (~mask & (fe__pair_int)no));
+    return (fe__doubles)((mask & (fe__doubles_int)yes) | (~mask & (fe__doubles_int)no));
 }
 #if FE_LANES_X86
-FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y) { return (fe__pair)_mm_min_pd((__m128d)x, (__m128d)y); }
-FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y) { return (fe__pair)_mm_max_pd((__m128d)x, (__m128d)y); }
-FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair)_mm_cvtps_pd((__m128)x); }
-FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x)
+FE_LANES_INLINE fe__doubles fe__doubles_min(fe__doubles x, fe__doubles y)
 {
-    return fe__pair_low((fe__quad)_mm_movehl_ps((__m128)x, (__m128)x));
+    return (fe__doubles)_mm_min_pd((__m128d)x, (__m128d)y);
 }
-FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+FE_LANES_INLINE fe__doubles fe__doubles_max(fe__doubles x, fe__doubles y)
+{
+    return (fe__doubles)_mm_max_pd((__m128d)x, (__m128d)y);
+}
+FE_LANES_INLINE fe__doubles fe__doubles_low(fe__quad x) { return (fe__doubles)_mm_cvtps_pd((__m128)x); }
+FE_LANES_INLINE fe__doubles fe__doubles_high(fe__quad x)
+{
+    return fe__doubles_low((fe__quad)_mm_movehl_ps((__m128)x, (__m128)x));
+}
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__doubles a, fe__doubles b)
 {
     return (fe__quad)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)a), _mm_cvtpd_ps((__m128d)b));
 }
@@ -68,17 +74,20 @@ FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return (fe__quad
 // bit i: sign of lane i
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return (uint32_t)_mm_movemask_ps((__m128)x); }
 #elif FE_LANES_WASM // pmin(a, b) = b < a ? b : a, and likewise pmax: the operands change places
-FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y)
+FE_LANES_INLINE fe__doubles fe__doubles_min(fe__doubles x, fe__doubles y)
 {
-    return (fe__pair)wasm_f64x2_pmin((v128_t)y, (v128_t)x);
+    return (fe__doubles)wasm_f64x2_pmin((v128_t)y, (v128_t)x);
 }
-FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y)
+FE_LANES_INLINE fe__doubles fe__doubles_max(fe__doubles x, fe__doubles y)
 {
-    return (fe__pair)wasm_f64x2_pmax((v128_t)y, (v128_t)x);
+    return (fe__doubles)wasm_f64x2_pmax((v128_t)y, (v128_t)x);
 }
-FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair)wasm_f64x2_promote_low_f32x4((v128_t)x); }
-FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x) { return fe__pair_low(__builtin_shufflevector(x, x, 2, 3, 2, 3)); }
-FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+FE_LANES_INLINE fe__doubles fe__doubles_low(fe__quad x) { return (fe__doubles)wasm_f64x2_promote_low_f32x4((v128_t)x); }
+FE_LANES_INLINE fe__doubles fe__doubles_high(fe__quad x)
+{
+    return fe__doubles_low(__builtin_shufflevector(x, x, 2, 3, 2, 3));
+}
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__doubles a, fe__doubles b)
 {
     return __builtin_shufflevector((fe__quad)wasm_f32x4_demote_f64x2_zero((v128_t)a),
                                    (fe__quad)wasm_f32x4_demote_f64x2_zero((v128_t)b), 0, 1, 4, 5);
@@ -93,11 +102,11 @@ FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y)
 }
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return wasm_i32x4_bitmask((v128_t)x); }
 #else
-FE_LANES_INLINE fe__pair fe__pair_min(fe__pair x, fe__pair y) { return fe__pair_choose(x < y, x, y); }
-FE_LANES_INLINE fe__pair fe__pair_max(fe__pair x, fe__pair y) { return fe__pair_choose(x > y, x, y); }
-FE_LANES_INLINE fe__pair fe__pair_low(fe__quad x) { return (fe__pair){(double)x[0], (double)x[1]}; }
-FE_LANES_INLINE fe__pair fe__pair_high(fe__quad x) { return (fe__pair){(double)x[2], (double)x[3]}; }
-FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+FE_LANES_INLINE fe__doubles fe__doubles_min(fe__doubles x, fe__doubles y) { return fe__doubles_choose(x < y, x, y); }
+FE_LANES_INLINE fe__doubles fe__doubles_max(fe__doubles x, fe__doubles y) { return fe__doubles_choose(x > y, x, y); }
+FE_LANES_INLINE fe__doubles fe__doubles_low(fe__quad x) { return (fe__doubles){(double)x[0], (double)x[1]}; }
+FE_LANES_INLINE fe__doubles fe__doubles_high(fe__quad x) { return (fe__doubles){(double)x[2], (double)x[3]}; }
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__doubles a, fe__doubles b)
 {
     return (fe__quad){(float)a[0], (float)a[1], (float)b[0], (float)b[1]};
 }

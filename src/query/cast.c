@@ -200,7 +200,7 @@ typedef struct cast {
     int32_t body;  // only shapes of this body, or FE_ANY_BODY
     int32_t shape; // nearest so far, -1: none
     int32_t which; // of the two is its: the next is found in the other
-    found found[2];
+    found finds[2];
 } cast;
 
 // At equal fractions.
@@ -215,8 +215,8 @@ static double visit_nearest(void *context, int32_t index, double limit)
     const fe__shape *shape = &c->scene->shapes[index];
     if (c->body != FE_ANY_BODY && shape->body != c->body) return limit;
     if (!fe__scene_counts(c->scene, shape)) return limit;
-    found *f = &c->found[1 - c->which];
-    const found *best = &c->found[c->which];
+    found *f = &c->finds[1 - c->which];
+    const found *best = &c->finds[c->which];
     if (!meet(c->scene, c->probe, shape, limit, f)) return limit;
     if (c->shape >= 0 && f->hit.t == best->hit.t && !comes_before(f, shape, best, &c->scene->shapes[c->shape]))
         return limit;
@@ -236,13 +236,13 @@ static void walk(const fe__scene *scene, const fe__probe *probe, double limit, f
 static int32_t report_nearest(const cast *c, fe_hit *out_hit)
 {
     if (c->shape < 0) return 0;
-    report(c->scene, c->probe, c->shape, &c->found[c->which], out_hit);
+    report(c->scene, c->probe, c->shape, &c->finds[c->which], out_hit);
     return 1;
 }
 
 int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit)
 {
-    cast c; // `found` means something once `shape` does
+    cast c; // `finds` mean something once `shape` does
     c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1, c.which = 0;
     walk(scene, probe, 1.0, visit_nearest, &c);
     return report_nearest(&c, out_hit);
@@ -268,7 +268,7 @@ static double visit_any(void *context, int32_t index, double limit)
 
 int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe)
 {
-    cast c; // `found` means something once `shape` does
+    cast c; // `finds` mean something once `shape` does
     c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1, c.which = 0;
     walk(scene, probe, 1.0, visit_any, &c);
     return c.shape >= 0;

@@ -160,7 +160,7 @@ static int32_t align(const fe__snapshot *now, const fe__snapshot *base, fe__tabl
         const keyed *k = keys + i;
         if (table < k->first || table > k->last) continue;
         int32_t offset = offset_of(fe__tables + k->first, k->field);
-        const fe__view *a = now->tables + k->first, *b = base->tables + k->first;
+        const fe__snapshot_view *a = now->tables + k->first, *b = base->tables + k->first;
         *out = (aligned){
             a->content + offset, b->content + offset, a->rows, b->rows, fe__tables[k->first].row_size, k->size};
         return now->tables[table].rows == a->rows && base->tables[table].rows == b->rows;
@@ -207,7 +207,7 @@ static void take_rows(writer *w, const aligned *a, int64_t row_size)
 
 static void take_table(writer *w, const fe__snapshot *now, const fe__snapshot *base, fe__table_number table)
 {
-    const fe__view *a = now->tables + table, *b = base->tables + table;
+    const fe__snapshot_view *a = now->tables + table, *b = base->tables + table;
     int64_t row = fe__tables[table].row_size, front = FE__SECTION_HEADER + FE__SECTION_ROWS;
     int64_t now_size = a->rows * row, base_size = b->rows * row;
     aligned rows;

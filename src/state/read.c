@@ -107,7 +107,7 @@ static int32_t check_row(fe__snapshot *s, const fe__table *table, int32_t row, c
     return 1;
 }
 
-static int32_t check_rows(fe__snapshot *s, const fe__table *table, const fe__view *view)
+static int32_t check_rows(fe__snapshot *s, const fe__table *table, const fe__snapshot_view *view)
 {
     for (int32_t row = 0; row < view->rows; ++row)
         if (!check_row(s, table, row, view->content + (int64_t)row * table->row_size)) return 0;
@@ -156,7 +156,7 @@ static int32_t is_known(const section *in, uint32_t type)
 
 // The sum of a section with rows, and whether one of their numbers may be out of its range: of a block at a time, while
 // it is near
-static uint64_t sum_rows(const fe__table *table, const section *in, const fe__view *view, uint32_t *out_doubts)
+static uint64_t sum_rows(const fe__table *table, const section *in, const fe__snapshot_view *view, uint32_t *out_doubts)
 {
     fe__sum sum = {{0}, 0};
     const unsigned char *at = view->content;
@@ -172,13 +172,13 @@ static uint64_t sum_rows(const fe__table *table, const section *in, const fe__vi
 }
 
 // The rows that its size has room for
-static fe__view view_of(const section *in, uint32_t number, uint64_t *out_rows)
+static fe__snapshot_view view_of(const section *in, uint32_t number, uint64_t *out_rows)
 {
     const unsigned char *at = in->content;
     uint64_t rows = *out_rows = in->size < FE__SECTION_ROWS ? UINT64_MAX : fe__take_u64(&at);
     int32_t fits =
         rows <= INT32_MAX && fe__padded(FE__SECTION_ROWS + (int64_t)rows * fe__tables[number].row_size) == in->size;
-    return (fe__view){at, fits ? (int32_t)rows : -1, (int32_t)number};
+    return (fe__snapshot_view){at, fits ? (int32_t)rows : -1, (int32_t)number};
 }
 
 static int32_t check_view(fe__snapshot *s, const section *in, uint32_t number, uint64_t rows)
@@ -196,7 +196,7 @@ static int32_t check_view(fe__snapshot *s, const section *in, uint32_t number, u
 static int32_t read_table(fe__snapshot *s, const section *in, uint32_t number)
 {
     const fe__table *table = fe__tables + number;
-    fe__view *view = s->tables + number;
+    fe__snapshot_view *view = s->tables + number;
     uint32_t doubts = 0;
     uint64_t rows;
     *view = view_of(in, number, &rows);

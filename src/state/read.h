@@ -6,18 +6,18 @@
 
 enum { FE__SENTENCE = 200 };
 
-typedef struct fe__view {         // a table
-    const unsigned char *content; // its rows
+typedef struct fe__snapshot_view { // a table
+    const unsigned char *content;  // its rows
     int32_t rows;
     int32_t section; // offset of its header in the bytes
-} fe__view;
+} fe__snapshot_view;
 
 typedef struct fe__snapshot {
     const unsigned char *bytes;
     int64_t size;
     uint32_t results, version;
     int32_t number;
-    fe__view tables[FE__TABLES];
+    fe__snapshot_view tables[FE__TABLES];
     int64_t assets_at; // of the first section with an asset, 0: none
     int32_t asset_count;
     fe_result result; // FE_OK, or why it was refused

@@ -117,16 +117,16 @@ float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
 
 // ---- bounds: pairs of lanes, in double -----------------------------------------------------------------------------
 typedef struct pairs {
-    fe__pair x, y, z;
+    fe__doubles x, y, z;
 } pairs;
 
 static inline pairs low_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
 {
-    return (pairs){fe__pair_low(*x), fe__pair_low(*y), fe__pair_low(*z)};
+    return (pairs){fe__doubles_low(*x), fe__doubles_low(*y), fe__doubles_low(*z)};
 }
 static inline pairs high_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
 {
-    return (pairs){fe__pair_high(*x), fe__pair_high(*y), fe__pair_high(*z)};
+    return (pairs){fe__doubles_high(*x), fe__doubles_high(*y), fe__doubles_high(*z)};
 }
 
 // As fe__drotate: a + k w t + k u x t, t = u x a
@@ -135,10 +135,10 @@ static inline pairs cross(fe_dvec3 u, pairs a)
     return (pairs){u.y * a.z - u.z * a.y, u.z * a.x - u.x * a.z, u.x * a.y - u.y * a.x};
 }
 
-static inline fe__pair least(fe__pair a, fe__pair b) { return fe__pair_choose(a < b, a, b); }
-static inline fe__pair most(fe__pair a, fe__pair b) { return fe__pair_choose(a > b, a, b); }
-static double least_of(fe__pair a) { return fe__mind(a[0], a[1]); }
-static double most_of(fe__pair a) { return fe__maxd(a[0], a[1]); }
+static inline fe__doubles least(fe__doubles a, fe__doubles b) { return fe__doubles_choose(a < b, a, b); }
+static inline fe__doubles most(fe__doubles a, fe__doubles b) { return fe__doubles_choose(a > b, a, b); }
+static double least_of(fe__doubles a) { return fe__mind(a[0], a[1]); }
+static double most_of(fe__doubles a) { return fe__maxd(a[0], a[1]); }
 
 typedef struct span {
     pairs low, high;

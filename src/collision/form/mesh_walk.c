@@ -130,11 +130,12 @@ void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__
 {
     const corners of = corners_of(mesh, slot);
     const double *s = mesh->scale;
-    const fe__pair scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y}, z = {origin.z, origin.z};
+    const fe__doubles scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y},
+                      z = {origin.z, origin.z};
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     for (int32_t k = 0; k < 3; ++k) {
         fe__quad p = load_corner(&of, fe__mesh_own_corner(mesh, k));
-        fe__quad corner = fe__quad_narrow(scale_xy * fe__pair_low(p) - xy, scale_z * fe__pair_high(p) - z);
+        fe__quad corner = fe__quad_narrow(scale_xy * fe__doubles_low(p) - xy, scale_z * fe__doubles_high(p) - z);
         memcpy(triangle->vertex + k, &corner, sizeof *triangle->vertex);
     }
 }

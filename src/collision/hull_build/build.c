@@ -39,7 +39,7 @@ static void choose_tolerance(fe__hull_builder *b, double given)
 
 // Vertices on the grid, two side by side; an odd last one stands twice.
 typedef struct grid_vertices {
-    fe__pair x[FE__SURFACE_VERTICES / 2], y[FE__SURFACE_VERTICES / 2], z[FE__SURFACE_VERTICES / 2];
+    fe__doubles x[FE__SURFACE_VERTICES / 2], y[FE__SURFACE_VERTICES / 2], z[FE__SURFACE_VERTICES / 2];
     int32_t pairs;
 } grid_vertices;
 
@@ -53,7 +53,8 @@ static void read_vertices(const fe__hull_surface *s, grid_vertices *out)
         if (count++ % 2)
             out->x[at][1] = p.x, out->y[at][1] = p.y, out->z[at][1] = p.z;
         else
-            out->x[at] = (fe__pair){p.x, p.x}, out->y[at] = (fe__pair){p.y, p.y}, out->z[at] = (fe__pair){p.z, p.z};
+            out->x[at] = (fe__doubles){p.x, p.x}, out->y[at] = (fe__doubles){p.y, p.y},
+            out->z[at] = (fe__doubles){p.z, p.z};
     }
     out->pairs = (count + 1) / 2;
 }
@@ -61,11 +62,11 @@ static void read_vertices(const fe__hull_surface *s, grid_vertices *out)
 // fe__grid_height of the lowest, downwards
 static double depth_below(const fe__grid_plane *plane, const grid_vertices *v)
 {
-    const fe__pair x = {plane->unit.x, plane->unit.x}, y = {plane->unit.y, plane->unit.y},
-                   z = {plane->unit.z, plane->unit.z}, offset = {plane->offset, plane->offset};
-    fe__pair lowest = {0.0, 0.0};
+    const fe__doubles x = {plane->unit.x, plane->unit.x}, y = {plane->unit.y, plane->unit.y},
+                      z = {plane->unit.z, plane->unit.z}, offset = {plane->offset, plane->offset};
+    fe__doubles lowest = {0.0, 0.0};
     for (int32_t i = 0; i < v->pairs; ++i)
-        lowest = fe__pair_min(x * v->x[i] + y * v->y[i] + z * v->z[i] - offset, lowest);
+        lowest = fe__doubles_min(x * v->x[i] + y * v->y[i] + z * v->z[i] - offset, lowest);
     return -fe__mind(lowest[0], lowest[1]);
 }
 

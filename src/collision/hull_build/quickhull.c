@@ -76,16 +76,16 @@ void fe__surface_choose_among(fe__hull_surface *s, const int32_t *triangles, int
 // Which plane is above is a guess as good as any: nothing branches on it.
 void fe__surface_give(fe__hull_surface *s, int32_t point, const int32_t *triangles, int32_t count)
 {
-    const fe__pair *px = (const fe__pair *)s->planes.x, *py = (const fe__pair *)s->planes.y,
-                   *pz = (const fe__pair *)s->planes.z, *offset = (const fe__pair *)s->planes.offset;
+    const fe__doubles *px = (const fe__doubles *)s->planes.x, *py = (const fe__doubles *)s->planes.y,
+                      *pz = (const fe__doubles *)s->planes.z, *offset = (const fe__doubles *)s->planes.offset;
     fe_dvec3 p = s->cloud->grid[point];
-    const fe__pair x = {p.x, p.x}, y = {p.y, p.y}, z = {p.z, p.z};
-    fe__pair best = {least_height, least_height};
-    fe__pair_int at = {-1, -1}, number = {0, 1};
+    const fe__doubles x = {p.x, p.x}, y = {p.y, p.y}, z = {p.z, p.z};
+    fe__doubles best = {least_height, least_height};
+    fe__doubles_int at = {-1, -1}, number = {0, 1};
     for (int32_t i = 0; i < (count + 1) / 2; ++i, number += 2) {
-        fe__pair height = px[i] * x + py[i] * y + pz[i] * z - offset[i];
-        fe__pair_int is_higher = height > best;
-        best = fe__pair_max(height, best);
+        fe__doubles height = px[i] * x + py[i] * y + pz[i] * z - offset[i];
+        fe__doubles_int is_higher = height > best;
+        best = fe__doubles_max(height, best);
         at = (is_higher & number) | (~is_higher & at);
     }
     int32_t second = best[1] > best[0] || (best[1] == best[0] && at[1] < at[0]);

@@ -90,15 +90,15 @@ static double along(const fe__hull *h, fe_vec3 normal, int32_t vertex)
 static double farthest_along(const fe__hull *h, fe_vec3 normal)
 {
     const double n[3] = {(double)normal.x, (double)normal.y, (double)normal.z};
-    const fe__pair x = {n[0], n[0]}, y = {n[1], n[1]}, z = {n[2], n[2]};
+    const fe__doubles x = {n[0], n[0]}, y = {n[1], n[1]}, z = {n[2], n[2]};
     double first = along(h, normal, 0);
-    fe__pair most = {first, first};
+    fe__doubles most = {first, first};
     int32_t whole = h->vertex_count / 4 * 4;
     for (int32_t v = 0; v < whole; v += 4) {
         fe__quad vx = *(const fe__quad *)(h->vertices.x + v), vy = *(const fe__quad *)(h->vertices.y + v),
                  vz = *(const fe__quad *)(h->vertices.z + v);
-        most = fe__pair_max(x * fe__pair_low(vx) + y * fe__pair_low(vy) + z * fe__pair_low(vz), most);
-        most = fe__pair_max(x * fe__pair_high(vx) + y * fe__pair_high(vy) + z * fe__pair_high(vz), most);
+        most = fe__doubles_max(x * fe__doubles_low(vx) + y * fe__doubles_low(vy) + z * fe__doubles_low(vz), most);
+        most = fe__doubles_max(x * fe__doubles_high(vx) + y * fe__doubles_high(vy) + z * fe__doubles_high(vz), most);
     }
     double farthest = fe__maxd(most[0], most[1]);
     int32_t rest = farthest == 0.0 ? 0 : whole; // of -0 and 0 the last one stays

@@ -34,7 +34,7 @@ static void note_gap(const fe__gjk *gjk, double radii, fe__manifold *manifold)
 }
 
 // 0: farther apart than the margin
-static int32_t find_nearest(const fe__cores *cores, float margin, fe__manifold *manifold, fe__touch *found)
+static int32_t find_nearest(const fe__cores *cores, float margin, fe__manifold *manifold, fe__core_touch *found)
 {
     double radii = (double)cores->a->radius + (double)cores->b->radius, limit = radii + (double)margin;
     fe__gjk gjk;
@@ -45,11 +45,11 @@ static int32_t find_nearest(const fe__cores *cores, float margin, fe__manifold *
     }
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(cores, &gjk);
-        *found =
-            (fe__touch){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
+        *found = (fe__core_touch){
+            fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (fe__touch){
+        *found = (fe__core_touch){
             fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
     }
     return 1;
@@ -136,7 +136,7 @@ static void draw_in(float radius, const plane_frame *frame, const fe__face *disc
 // margin, when the deepest of them says the same as the nearest points do; else nothing. Where the cores overlap, what
 // hangs over the rim has to come out too. `flip` is 1 when the reference is B's.
 static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius,
-                          float incident_radius, int32_t flip, const fe__touch *found, float margin,
+                          float incident_radius, int32_t flip, const fe__core_touch *found, float margin,
                           fe__manifold *manifold)
 {
     float radii = reference_radius + incident_radius, rounding = 1e-6f * fe__maxf(extent(reference), extent(incident));
@@ -170,14 +170,14 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
 }
 
 // midway between the surfaces
-static fe_vec3 middle_of(const fe__touch *found, const fe__form *a, const fe__form *b)
+static fe_vec3 middle_of(const fe__core_touch *found, const fe__form *a, const fe__form *b)
 {
     return fe__scale(0.5f, fe__add(fe__add_scaled(found->on_a, a->radius, found->normal),
                                    fe__add_scaled(found->on_b, -b->radius, found->normal)));
 }
 
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
-                                    const fe__touch *found, float margin, fe__manifold *manifold)
+                                    const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
     fe__face face_a, face_b;
     fe__form_face(a, found->normal, &face_a);
@@ -248,7 +248,7 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
     }
 }
 
-static void touch_point(const fe__cores *cores, const fe__touch *found, fe__manifold *manifold)
+static void touch_point(const fe__cores *cores, const fe__core_touch *found, fe__manifold *manifold)
 {
     enum { SINGLE_ID = 0xffff };
     manifold->normal = found->normal;
@@ -262,7 +262,7 @@ static void touch_point(const fe__cores *cores, const fe__touch *found, fe__mani
 // Of a pair with a rim. 1: the answer is that along the direction of the last search
 static int32_t touch_again(const fe__cores *cores, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
 {
-    fe__touch found;
+    fe__core_touch found;
     if (manifold->axis < 0 || !fe__look_again(cores, manifold->axis, manifold->last, &found)) return 0;
     if (found.separation > margin) {
         fe__stay_apart(manifold, found.separation, found.normal);
@@ -289,7 +289,7 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
     fe__cores cores = make_cores(a, b, b_in_a);
     int32_t curved = fe__form_is_curved(a) || fe__form_is_curved(b);
     if (curved && touch_again(&cores, b_in_a, margin, manifold)) return;
-    fe__touch found, nearest;
+    fe__core_touch found, nearest;
     if (!find_nearest(&cores, margin, manifold, &found)) return;
     nearest = found;
     int32_t on_face = curved && fe__sharpen(&cores, &found);

@@ -26,7 +26,7 @@ typedef struct choice {
     const fe__cores *cores;
     fe_dvec3 found; // direction and separation that the search found
     double least;   // separation that is as good
-    fe__touch *touch;
+    fe__core_touch *touch;
 } choice;
 
 static double separation_along(const fe__cores *cores, fe_dvec3 n)
@@ -67,7 +67,7 @@ static int32_t is_long(const fe__form *form)
 
 // Sides of two that cross: nearest points of their axes' lines, c + t e and s y, and their radii out
 // 1: they cross between their ends
-static int32_t place_crossing(const fe__cores *c, fe__touch *touch)
+static int32_t place_crossing(const fe__cores *c, fe__core_touch *touch)
 {
     fe_dvec3 p = c->position, e = c->axis_y, n = fe__widen(touch->normal);
     double across = e.x * e.x + e.z * e.z, t = -(p.x * e.x + p.z * e.z) / across, s = p.y + t * e.y;
@@ -127,7 +127,7 @@ static int32_t takes_side(const choice *c, int32_t is_b)
            takes(c, side_normal(form, axis_of(c->cores, is_b, LENGTHWAYS), out), name_of(OF_SIDE, is_b, 0));
 }
 
-int32_t fe__sharpen(const fe__cores *cores, fe__touch *touch)
+int32_t fe__sharpen(const fe__cores *cores, fe__core_touch *touch)
 {
     float tie = fe__tie(fe__minf(fe__form_thickness(cores->a), fe__form_thickness(cores->b)));
     choice c = {cores, fe__widen(touch->normal), (double)(touch->separation - tie), touch};
@@ -180,7 +180,7 @@ static int32_t find_root(const side *s, fe_dvec3 *m, fe_dvec3 *q)
     return 0;
 }
 
-static int32_t look_from_side(const fe__cores *cores, int32_t is_b, fe_vec3 last, fe__touch *touch)
+static int32_t look_from_side(const fe__cores *cores, int32_t is_b, fe_vec3 last, fe__core_touch *touch)
 {
     const fe__form *form = is_b ? cores->b : cores->a;
     fe_dvec3 zero = {0.0, 0.0, 0.0}, q, m = fe__dscale(is_b ? -1.0 : 1.0, fe__widen(last));
@@ -192,24 +192,24 @@ static int32_t look_from_side(const fe__cores *cores, int32_t is_b, fe_vec3 last
     if (fe__absd(along) > (double)form->half.y) return 0; // beyond an end
     fe_vec3 own = fe__narrow(fe__dadd(s.centre, fe__dadd(fe__dscale(along, s.axis), fe__dscale(radius, m)))),
             other = fe__narrow(fe__dadd(s.centre, q));
-    *touch = (fe__touch){.normal = fe__narrow(fe__dscale(is_b ? -1.0 : 1.0, m)),
-                         .separation = (float)(apart - (double)cores->a->radius - (double)cores->b->radius),
-                         .on_a = is_b ? other : own,
-                         .on_b = is_b ? own : other};
+    *touch = (fe__core_touch){.normal = fe__narrow(fe__dscale(is_b ? -1.0 : 1.0, m)),
+                              .separation = (float)(apart - (double)cores->a->radius - (double)cores->b->radius),
+                              .on_a = is_b ? other : own,
+                              .on_b = is_b ? own : other};
     return 1;
 }
 
 // Askew by less than this, the sine squared, two axes have a normal that turns by much when they turn by little
 #define NEARLY_PARALLEL 1e-3
 
-static int32_t look_along(const fe__cores *cores, fe_dvec3 direction, int32_t axis, fe__touch *touch)
+static int32_t look_along(const fe__cores *cores, fe_dvec3 direction, int32_t axis, fe__core_touch *touch)
 {
     fe_dvec3 n = fe__dscale((axis & AGAINST ? -1.0 : 1.0) / sqrt(fe__ddot(direction, direction)), direction);
-    *touch = (fe__touch){.normal = fe__narrow(n), .separation = (float)separation_along(cores, n)};
+    *touch = (fe__core_touch){.normal = fe__narrow(n), .separation = (float)separation_along(cores, n)};
     return 1;
 }
 
-int32_t fe__look_again(const fe__cores *cores, int32_t axis, fe_vec3 last, fe__touch *touch)
+int32_t fe__look_again(const fe__cores *cores, int32_t axis, fe_vec3 last, fe__core_touch *touch)
 {
     int32_t kind = axis >> KIND_SHIFT, is_b = (axis & OF_B) != 0, feature = axis & FEATURE, found = 0;
     const fe__form *form = is_b ? cores->b : cores->a;

@@ -61,22 +61,22 @@ typedef struct fe__segment {
 } fe__segment;
 
 // What GJK or EPA found, in A's frame.
-typedef struct fe__touch {
+typedef struct fe__core_touch {
     fe_vec3 normal;     // from A to B
     float separation;   // of the surfaces
     fe_vec3 on_a, on_b; // of the cores
     int32_t overlap;    // of the cores
     int32_t axis;       // of a pair with a rim: the name of the direction, -1: it has none
-} fe__touch;
+} fe__core_touch;
 
 // Of a pair with a rim: takes one of the directions that such a pair touches along for the normal, when it is the same
 // within a tie, so that what lies still has a normal without the noise of a search, and names it (curved_axis.c). 1: it
 // is that of a face.
 struct fe__cores;
-int32_t fe__sharpen(const struct fe__cores *cores, fe__touch *found);
+int32_t fe__sharpen(const struct fe__cores *cores, fe__core_touch *found);
 // The direction of that name at the poses of now. `last`: the normal when it was found, A's frame. 0: there is none. Of
 // a face, points are not looked for.
-int32_t fe__look_again(const struct fe__cores *cores, int32_t axis, fe_vec3 last, fe__touch *found);
+int32_t fe__look_again(const struct fe__cores *cores, int32_t axis, fe_vec3 last, fe__core_touch *found);
 int32_t fe__axis_is_of_face(int32_t axis);
 
 // Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the

@@ -144,7 +144,7 @@ static void find_distance(const contest *c, const fe__cores *cores, fe_dvec3 low
 }
 
 // 0: apart
-static int32_t find_nearest(const contest *c, const low_point *low, fe__touch *found)
+static int32_t find_nearest(const contest *c, const low_point *low, fe__core_touch *found)
 {
     const fe_vec3 *v = c->tile->form.vertex;
     const fe_dvec3 corners[3] = {fe__widen(v[0]), fe__widen(v[1]), fe__widen(v[2])};
@@ -157,20 +157,20 @@ static int32_t find_nearest(const contest *c, const low_point *low, fe__touch *f
     find_distance(c, &cores, low->at, &gjk);
     if (gjk.distance > (double)c->g->margin) return 0;
     if (gjk.overlap && low->height + c->tie >= 0.0f) { // no direction parts them by a tie more than the face's
-        *found = (fe__touch){.normal = c->tile->normal, .separation = low->height};
+        *found = (fe__core_touch){.normal = c->tile->normal, .separation = low->height};
     } else if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
-        *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
+        *found = (fe__core_touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found =
-            (fe__touch){fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
+        *found = (fe__core_touch){
+            fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
     }
     return 1;
 }
 
 // The disc lies on the side, or the nearest points are all.
-static void touch_side(const contest *c, const fe__touch *found)
+static void touch_side(const contest *c, const fe__core_touch *found)
 {
     fe__face face;
     fe__tile_body_face(c->form, c->rotation, fe__neg(found->normal), -1, &face);
@@ -215,7 +215,7 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
     face_cut f;
     cut_face(&c, low.vertex, &f);
     if (!is_inside && !fe__tile_settles(&f.cut, &f.piece, low.height)) {
-        fe__touch found;
+        fe__core_touch found;
         if (!find_nearest(&c, &low, &found)) return;
         if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
             fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal)) {
