@@ -27,6 +27,7 @@ missing_for_python() {
     python_has pytest || echo python3-pytest
     python_has numpy || echo python3-numpy
     test -f /usr/include/mujoco/mujoco.h || echo libmujoco-dev
+    test -d /usr/share/mujoco/model || echo libmujoco-samples
     python_has matplotlib || echo python3-matplotlib
     python_has nbconvert || echo jupyter-nbconvert
     python_has ipykernel || echo python3-ipykernel

@@ -28,8 +28,10 @@ static void print_joint(const mjModel *m, const mjData *d, int i)
     print_numbers("position", d->xanchor + 3 * i, 3), printf(", ");
     print_numbers("axis", d->xaxis + 3 * i, 3), printf(", ");
     print_numbers("range", m->jnt_range + 2 * i, 2);
-    printf(", \"limited\": %d, \"damping\": %.17g, \"friction\": %.17g}", (int)m->jnt_limited[i],
-           m->dof_damping[m->jnt_dofadr[i]], m->dof_frictionloss[m->jnt_dofadr[i]]);
+    const int dof = m->jnt_dofadr[i];
+    printf(", \"limited\": %d, \"damping\": %.17g, \"friction\": %.17g, \"stiffness\": %.17g, \"armature\": %.17g, ",
+           (int)m->jnt_limited[i], m->dof_damping[dof], m->dof_frictionloss[dof], m->jnt_stiffness[i], m->dof_armature[dof]);
+    printf("\"rest\": %.17g, \"start\": %.17g}", m->qpos_spring[m->jnt_qposadr[i]], m->qpos0[m->jnt_qposadr[i]]);
 }
 
 static int print_file(const char *path, double seconds)
@@ -40,6 +42,7 @@ static int print_file(const char *path, double seconds)
         fprintf(stderr, "%s: %s\n", path, error);
         return 1;
     }
+    m->opt.disableflags |= mjDSBL_CONTACT; // random bodies stand in one another
     mjData *d = mj_makeData(m);
     mj_forward(m, d);
     printf("{\"bodies\": [");
@@ -53,6 +56,7 @@ static int print_file(const char *path, double seconds)
         print_joint(m, d, i);
     }
     printf("], ");
+    print_numbers("gravity", m->opt.gravity, 3), printf(", ");
     m->opt.timestep = 1e-4;
     while (d->time < seconds - 5e-5) mj_step(m, d);
     print_numbers("after", d->qpos, m->nq);

@@ -1,5 +1,5 @@
-"""A scene as data: bodies, shapes, joints and their names, read from a file of robots (urdf.py), kept as JSON, and built
-in any number of worlds."""
+"""A scene as data: bodies, shapes, joints and their names, read from a file of robots (urdf.py, mjcf.py), kept as JSON,
+and built in any number of worlds."""
 
 from __future__ import annotations
 
@@ -10,59 +10,34 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from ._flat import Quat, Vec3
 from .errors import InvalidArgumentError, VersionError
+from .frames import (
+    NO_TURN,
+    ORIGIN,
+    Frame,
+    Triple,
+    Turn,
+    add,
+    inside,
+    matrix_of,
+    multiply,
+    normalized,
+    principal,
+    rotate,
+)
 from .objects import Body, Joint
-from .records import Box, Capsule, Cylinder, Geometry, MassData, Material, Sphere
+from .records import Box, Capsule, Cylinder, Geometry, MassData, Material, Plane, Sphere
 from .world import World
 
-Triple = Tuple[float, float, float]
-Turn = Tuple[float, float, float, float]
 FORMAT = "feather-scene"
 VERSION = 1
-NO_TURN: Turn = (0.0, 0.0, 0.0, 1.0)
-ORIGIN: Triple = (0.0, 0.0, 0.0)
-
-# ---- rotations as x, y, z, w
-
-
-def multiply(a: Sequence[float], b: Sequence[float]) -> Turn:
-    """First b, then a."""
-    (ax, ay, az, aw), (bx, by, bz, bw) = a, b
-    return (
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    )
-
-
-def rotate(q: Sequence[float], v: Sequence[float]) -> Triple:
-    """v turned by q."""
-    x, y, z, w = q
-    tx, ty, tz = 2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])
-    return (
-        v[0] + w * tx + y * tz - z * ty,
-        v[1] + w * ty + z * tx - x * tz,
-        v[2] + w * tz + x * ty - y * tx,
-    )
-
-
-def normalized(v: Sequence[float]) -> Tuple[float, ...]:
-    """Of length 1."""
-    length = math.sqrt(sum(x * x for x in v))
-    return tuple(x / length for x in v)
-
-
-def add(a: Sequence[float], b: Sequence[float]) -> Triple:
-    """The sum of two vectors."""
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
 
 # ---- records
 
 
 @dataclass
 class SceneShape:
-    """A form on a body: "box" (half extents), "sphere" (radius), "capsule", "cylinder" (half height, radius; along Y)."""
+    """A form on a body: "box" (half extents), "sphere" (radius), "capsule", "cylinder" (half height, radius; along Y),
+    or "plane" (no size, Y is up), on static bodies."""
 
     form: str
     size: List[float]
@@ -81,7 +56,9 @@ class SceneShape:
             return Capsule(*self.size)
         if self.form == "cylinder":
             return Cylinder(*self.size)
-        raise InvalidArgumentError(f"form: box, sphere, capsule or cylinder is needed, not {self.form!r}")
+        if self.form == "plane":
+            return Plane()
+        raise InvalidArgumentError(f"form: box, sphere, capsule, cylinder or plane is needed, not {self.form!r}")
 
 
 @dataclass
@@ -101,10 +78,27 @@ class SceneBody:
 
 
 @dataclass
+class SceneFreedom:
+    """One axis along or about which a "configurable" joint moves: "linear_x" ... "angular_z" of its frame."""
+
+    name: str
+    axis: str
+    lower: Optional[float] = None
+    upper: Optional[float] = None
+    damping: float = 0.0
+    friction: float = 0.0
+    stiffness: float = 0.0
+    rest: float = 0.0
+    armature: float = 0.0
+
+
+@dataclass
 class SceneJoint:
-    """A joint of two bodies, None is the world: "fixed", "hinge", "slider", "planar" or "free" (none). The place and the
-    axis are the scene's, where the bodies stand. Limits: rad or m, None are none; effort: N m or N, velocity: rad/s or
-    m/s, as the file has them; damping: N m s/rad or N s/m; friction: N m or N."""
+    """A joint of two bodies, None is the world: "fixed", "hinge", "slider", "ball", "planar", "configurable" or "free"
+    (none). The place, the axis and the rotation, which is that of a configurable joint's frame, are the scene's, where
+    the bodies stand. Limits: rad or m, None are none; cone: rad, of a ball; effort: N m or N, velocity: rad/s or m/s,
+    as the file has them; damping: N m s/rad or N s/m; friction: N m or N; stiffness: N m/rad or N/m, of a spring that
+    pulls to `rest`; armature: kg m2, what the motor's rotor adds to the inertia about the axis."""
 
     name: str
     type: str
@@ -118,6 +112,29 @@ class SceneJoint:
     velocity: Optional[float] = None
     damping: float = 0.0
     friction: float = 0.0
+    stiffness: float = 0.0
+    rest: float = 0.0
+    armature: float = 0.0
+    cone: Optional[float] = None
+    rotation: Turn = NO_TURN
+    freedoms: List[SceneFreedom] = field(default_factory=list)
+
+
+@dataclass
+class SceneActuator:
+    """A drive of a joint, or of a configurable joint's freedom, by name. A "motor" has the torque or force gear * u; a
+    "position" gain * (u - q), a "velocity" gain * (u - v) for q, v = gear times coordinate and rate, times gear. u and
+    the force stay within their limits, None are none. A scene keeps them; the program drives."""
+
+    name: str
+    type: str
+    joint: str
+    gear: float = 1.0
+    gain: float = 1.0
+    lower: Optional[float] = None
+    upper: Optional[float] = None
+    force_lower: Optional[float] = None
+    force_upper: Optional[float] = None
 
 
 class Built:
@@ -130,11 +147,15 @@ class Built:
 
 @dataclass
 class Scene:
-    """Bodies and joints with names. `warnings`: what the file has and the scene has not, with the file and the line."""
+    """Bodies and joints with names; pairs of bodies that do not collide; the gravity that the file asks for, m/s2.
+    `warnings`: what the file has and the scene has not, with the file and the line."""
 
     name: str = ""
     bodies: List[SceneBody] = field(default_factory=list)
     joints: List[SceneJoint] = field(default_factory=list)
+    actuators: List[SceneActuator] = field(default_factory=list)
+    excluded: List[Tuple[str, str]] = field(default_factory=list)
+    gravity: Optional[Triple] = None
     warnings: List[str] = field(default_factory=list)
 
     # ---- into a world
@@ -143,11 +164,16 @@ class Scene:
         self, world: World, position: Sequence[float] = ORIGIN, rotation: Sequence[float] = NO_TURN, **shape: Any
     ) -> Built:
         """Makes its bodies and joints in a world, moved and turned; nothing remains of it when something is refused.
-        Further options are those of Body.add(), for all shapes: group=-1, layer..."""
+        Further options are those of Body.add(), for all shapes: group=-1, layer... Gravity stays the world's."""
         built = Built()
         try:
             for body in self.bodies:
-                built.bodies[body.name] = _make_body(world, body, position, rotation, shape)
+                built.bodies[body.name] = _make_body(world, body, self.joints, position, rotation, shape)
+            for a, b in self.excluded:
+                for name in (a, b):
+                    if name not in built.bodies:
+                        raise InvalidArgumentError(f"build: excluded: there is no body {name!r}")
+                world.ignore_collision(built.bodies[a], built.bodies[b], True)
             for joint in self.joints:
                 if joint.type != "free":
                     built.joints[joint.name] = _make_joint(world, joint, built, position, rotation)
@@ -163,6 +189,8 @@ class Scene:
         record: Dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": self.name}
         record["bodies"] = [asdict(body) for body in self.bodies]
         record["joints"] = [asdict(joint) for joint in self.joints]
+        record["actuators"] = [asdict(actuator) for actuator in self.actuators]
+        record["excluded"], record["gravity"] = self.excluded, self.gravity
         return json.dumps(record, indent=1, allow_nan=False)
 
     @classmethod
@@ -179,9 +207,27 @@ class Scene:
         scene = cls(_text(record.get("name", ""), "name"))
         for item in _list(record.get("bodies"), "bodies"):
             body = _record(SceneBody, item, "bodies")
-            body.shapes = [_record(SceneShape, shape, f"shapes of {body.name}") for shape in _list(body.shapes, "shapes")]
+            body.shapes = [
+                _record(SceneShape, shape, f"shapes of {body.name}") for shape in _list(body.shapes, "shapes")
+            ]
             scene.bodies.append(body)
-        scene.joints = [_record(SceneJoint, item, "joints") for item in _list(record.get("joints"), "joints")]
+        for item in _list(record.get("joints"), "joints"):
+            joint = _record(SceneJoint, item, "joints")
+            freedoms = f"freedoms of {joint.name}"
+            joint.freedoms = [_record(SceneFreedom, each, freedoms) for each in _list(joint.freedoms, freedoms)]
+            scene.joints.append(joint)
+        scene.actuators = [
+            _record(SceneActuator, item, "actuators") for item in _list(record.get("actuators", []), "actuators")
+        ]
+        for pair in _list(record.get("excluded", []), "excluded"):
+            if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(name, str) for name in pair):
+                raise InvalidArgumentError(f"from_json: excluded: two names are needed, not {pair!r}")
+            scene.excluded.append((pair[0], pair[1]))
+        gravity = record.get("gravity")
+        if gravity is not None:
+            if not isinstance(gravity, list) or len(gravity) != 3 or not all(map(_number, gravity)):
+                raise InvalidArgumentError(f"from_json: gravity is {gravity!r}")
+            scene.gravity = (float(gravity[0]), float(gravity[1]), float(gravity[2]))
         return scene
 
 
@@ -197,9 +243,10 @@ def _text(value: Any, what: str) -> str:
     return value
 
 
-TEXTS = {"name", "type", "form", "b"}
+TEXTS = {"name", "type", "form", "b"}  # and the axis of a freedom, the joint of an actuator
+LISTS = {"shapes", "freedoms"}
 LENGTHS = {"position": 3, "rotation": 4, "centre": 3, "inertia": 3, "inertia_rotation": 4, "axis": 3}
-MAY_LACK = {"mass", "friction", "lower", "upper", "effort", "velocity"}
+MAY_LACK = {"mass", "friction", "lower", "upper", "effort", "velocity", "cone", "force_lower", "force_upper"}
 
 
 def _number(value: Any) -> bool:
@@ -209,21 +256,24 @@ def _number(value: Any) -> bool:
 def _record(kind: Any, item: Any, what: str) -> Any:
     known = {each.name for each in fields(kind)}
     if not isinstance(item, dict) or set(item) - known:
-        raise InvalidArgumentError(f"from_json: {what}: {sorted(set(item) - known) if isinstance(item, dict) else item!r}")
+        raise InvalidArgumentError(
+            f"from_json: {what}: {sorted(set(item) - known) if isinstance(item, dict) else item!r}"
+        )
     for name, value in item.items():
-        if name in TEXTS:
+        is_text = name in TEXTS or (kind, name) in ((SceneFreedom, "axis"), (SceneActuator, "joint"))
+        if is_text:
             good = isinstance(value, str)
         elif name == "a":
             good = value is None or isinstance(value, str)
         elif name in LENGTHS or name == "size":
             good = isinstance(value, list) and all(map(_number, value)) and len(value) == LENGTHS.get(name, len(value))
-        elif name == "shapes":
+        elif name in LISTS:
             good = True
         else:
             good = _number(value) or (value is None and name in MAY_LACK)
         if not good:
             raise InvalidArgumentError(f"from_json: {what}: {name} is {value!r}")
-        if name in LENGTHS:
+        if name in LENGTHS and not is_text:
             item[name] = tuple(float(x) for x in value)
     try:
         return kind(**item)
@@ -234,18 +284,57 @@ def _record(kind: Any, item: Any, what: str) -> Any:
 # ---- bodies and joints in a world
 
 
-def _make_body(world: World, body: SceneBody, position: Sequence[float], rotation: Sequence[float], options: Any) -> Body:
+def _inertia(body: SceneBody, joints: Sequence[SceneJoint]) -> Tuple[Triple, Turn]:
+    """Principal moments and axes, with the rotors of the joints that carry it."""
+    rotors = []
+    for joint in joints:
+        if joint.b != body.name:
+            continue
+        if joint.armature > 0 and joint.type == "hinge":
+            rotors.append((joint.armature, joint.axis))
+        for freedom in joint.freedoms:
+            if freedom.armature > 0 and freedom.axis.startswith("angular"):
+                rotors.append((freedom.armature, rotate(joint.rotation, UNITS[freedom.axis[-1]])))
+    if not rotors:
+        return body.inertia, body.inertia_rotation
+    x, y, z, w = body.rotation
+    tensor = matrix_of(body.inertia, body.inertia_rotation)
+    for armature, axis in rotors:
+        a = rotate((-x, -y, -z, w), axis)
+        tensor = [[tensor[m][n] + armature * a[m] * a[n] for n in range(3)] for m in range(3)]
+    moments, axes = principal(tensor)
+    # A rotor turns about one axis alone, a body does not: none of its moments is above the sum of the others.
+    missing = max(moments) * (1 + 1e-6) - (sum(moments) - max(moments))
+    if missing > 0:
+        low = moments.index(min(moments))
+        moments = tuple(m + missing * (k == low) for k, m in enumerate(moments))  # type: ignore[assignment]
+    return moments, axes
+
+
+def _make_body(
+    world: World,
+    body: SceneBody,
+    joints: Sequence[SceneJoint],
+    position: Sequence[float],
+    rotation: Sequence[float],
+    options: Any,
+) -> Body:
     place, turn = add(position, rotate(rotation, body.position)), normalized(multiply(rotation, body.rotation))
     made = world.create_body(body.type, position=place, rotation=turn)
     try:
         for shape in body.shapes:
-            settings: Dict[str, Any] = {"position": shape.position, "rotation": shape.rotation, "density": shape.density, **options}
+            settings: Dict[str, Any] = {
+                "position": shape.position,
+                "rotation": shape.rotation,
+                "density": shape.density,
+                **options,
+            }
             if shape.friction is not None:
                 settings["material"] = Material(static_friction=shape.friction, dynamic_friction=shape.friction)
             made.add(shape.geometry(), **settings)
         if body.mass is not None and body.type == "dynamic":
-            axes = Quat(body.inertia_rotation)
-            made.mass_data = MassData(body.mass, Vec3(body.centre), Vec3(body.inertia), axes)
+            moments, axes = _inertia(body, joints)
+            made.mass_data = MassData(body.mass, Vec3(body.centre), Vec3(moments), Quat(axes))
     except BaseException:
         made.destroy()
         raise
@@ -253,6 +342,50 @@ def _make_body(world: World, body: SceneBody, position: Sequence[float], rotatio
 
 
 JOINT_AXES = {"hinge": "angular_x", "slider": "linear_x"}
+UNITS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+AXES = [f"{kind}_{letter}" for kind in ("linear", "angular") for letter in UNITS]
+
+
+def _axis(one: Any) -> Dict[str, Any]:
+    """The settings of one axis, of a joint or a freedom."""
+    limited = one.lower is not None and one.upper is not None
+    settings: Dict[str, Any] = {"motion": "limited" if limited else "free"}
+    if limited:
+        settings.update(lower=one.lower, upper=one.upper)
+    if one.friction > 0:
+        settings.update(motor_max=one.friction)  # of a motor that stands
+    if one.damping > 0 or one.stiffness > 0:
+        settings.update(spring="stiffness", spring_damping=one.damping, spring_stiffness=one.stiffness, target=one.rest)
+    return settings
+
+
+def _make_ball(
+    world: World, joint: SceneJoint, a: Optional[Body], b: Optional[Body], place: Triple, axis: Triple
+) -> Joint:
+    friction = {"motor_max": joint.friction} if joint.friction > 0 else {}
+    if not joint.damping and not joint.stiffness:
+        cone = {} if joint.cone is None else {"cone_enabled": 1, "cone_y": joint.cone, "cone_z": joint.cone}
+        return world.create_ball_joint(a, b, place, axis, **cone, **friction)
+    limits = None if joint.cone is None else joint.cone
+    one = SceneFreedom("", "", limits and -limits, limits, joint.damping, joint.friction, joint.stiffness)
+    about = {name: _axis(one) for name in AXES if name.startswith("angular")}
+    return world.create_configurable_joint(a, b, place, axis, **about)
+
+
+def _make_configurable(world: World, joint: SceneJoint, a: Optional[Body], b: Body, place: Triple, turn: Turn) -> Joint:
+    axes: Dict[str, Any] = {}
+    for freedom in joint.freedoms:
+        if freedom.axis not in AXES or freedom.axis in axes:
+            raise InvalidArgumentError(f"build: joint {joint.name}: axis {freedom.axis!r}")
+        axes[freedom.axis] = _axis(freedom)
+    frames: Dict[str, Any] = {}
+    for name, body in (("frame_a", a), ("frame_b", b)):
+        if body is None:
+            frames[name] = (ORIGIN, turn)  # its world_origin is the place
+        else:
+            frame = inside(Frame(tuple(body.position), tuple(body.rotation)), Frame(place, turn))  # type: ignore[arg-type]
+            frames[name] = (frame.position, frame.rotation)
+    return world.create_configurable_joint(a, b, place, **frames, **axes)
 
 
 def _make_joint(
@@ -266,16 +399,18 @@ def _make_joint(
     place, axis = add(position, rotate(rotation, joint.position)), rotate(rotation, joint.axis)
     if joint.type == "fixed":
         return world.create_fixed_joint(a, b, place)
+    if joint.type == "ball":
+        return _make_ball(world, joint, a, b, place, axis)
+    if joint.type == "configurable":
+        turn: Turn = normalized(multiply(rotation, joint.rotation))  # type: ignore[assignment]
+        return _make_configurable(world, joint, a, b, place, turn)
     if joint.type == "planar":  # along both axes across `axis`, and about it
         free = {"motion": "free"}
         return world.create_configurable_joint(a, b, place, axis, linear_y=free, linear_z=free, angular_x=free)
     if joint.type not in JOINT_AXES:
         raise InvalidArgumentError(f"build: joint {joint.name}: type {joint.type!r} is not known")
-    limits = {} if joint.lower is None or joint.upper is None else {"lower": joint.lower, "upper": joint.upper}
-    friction = {"motor_max": joint.friction} if joint.friction > 0 else {}  # of a motor that stands
-    if joint.type == "hinge" and not joint.damping:
-        return world.create_hinge_joint(a, b, place, axis, limit_enabled=1 if limits else 0, **limits, **friction)
-    one: Dict[str, Any] = {"motion": "limited" if limits else "free", **limits, **friction}
-    if joint.damping > 0:
-        one.update(spring="stiffness", spring_damping=joint.damping)
+    one = _axis(joint)
+    if joint.type == "hinge" and "spring" not in one:
+        limited = one.pop("motion") == "limited"
+        return world.create_hinge_joint(a, b, place, axis, limit_enabled=limited, **one)
     return world.create_configurable_joint(a, b, place, axis, **{JOINT_AXES[joint.type]: one})

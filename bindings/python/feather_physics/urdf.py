@@ -3,20 +3,32 @@
 from __future__ import annotations
 
 import math
-import os
-from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
-from xml.parsers import expat
+from typing import Any, Dict, List, Optional, Tuple
 
 from .errors import InvalidArgumentError, UnsupportedError
-from .scene import NO_TURN, ORIGIN, Scene, SceneBody, SceneJoint, SceneShape, Triple, Turn, add, multiply, normalized, rotate
+from .frames import (
+    ORIGIN,
+    Y_TO_Z,
+    Z_TO_Y,
+    Frame,
+    add,
+    angles_of,
+    inside,
+    matrix_of,
+    normalized,
+    principal,
+    rotate,
+    turn_of,
+)
+from .robot_xml import Element, Reader, escaped, parse, read_source, row
+from .scene import Scene, SceneBody, SceneJoint, SceneShape
 
-MOST_BYTES, MOST_DEPTH = 16 << 20, 200  # of a file; of elements in one another
-HALF_TURN = 0.5**0.5
-Y_TO_Z: Turn = (HALF_TURN, 0.0, 0.0, HALF_TURN)  # URDF's cylinders stand along z, ours along y
-Z_TO_Y: Turn = (-HALF_TURN, 0.0, 0.0, HALF_TURN)
 JOINTS = {
-    "fixed": "fixed", "revolute": "hinge", "continuous": "hinge", "prismatic": "slider", "planar": "planar",
+    "fixed": "fixed",
+    "revolute": "hinge",
+    "continuous": "hinge",
+    "prismatic": "slider",
+    "planar": "planar",
     "floating": "free",
 }
 WRITTEN = {"fixed": "fixed", "slider": "prismatic", "planar": "planar", "free": "floating"}
@@ -33,174 +45,17 @@ FIELDS = {
 }
 
 
-# ---- XML
-
-
-class Element:
-    """A tag with its attributes and children, and the line where it stands."""
-
-    def __init__(self, tag: str, attributes: Dict[str, str], line: int):
-        self.tag, self.attributes, self.line = tag, attributes, line
-        self.children: List[Element] = []
-
-    def find(self, tag: str) -> Optional["Element"]:
-        """The first child of a tag."""
-        return next((child for child in self.children if child.tag == tag), None)
-
-
-def parse(text: Union[str, bytes], file: str) -> Element:
-    """The root. No document types, so no entities; no more bytes or depth than a robot needs."""
-    data = text.encode() if isinstance(text, str) else text
-    if len(data) > MOST_BYTES:
-        raise InvalidArgumentError(f"{file}: {len(data)} bytes, {MOST_BYTES} are the most")
-    parser, top = expat.ParserCreate(), Element("", {}, 0)
-    stack = [top]
-
-    def start(tag: str, attributes: Dict[str, str]) -> None:
-        if len(stack) > MOST_DEPTH:
-            raise InvalidArgumentError(f"{file}:{parser.CurrentLineNumber}: deeper than {MOST_DEPTH} elements")
-        element = Element(tag, attributes, parser.CurrentLineNumber)
-        stack[-1].children.append(element)
-        stack.append(element)
-
-    def refuse(*_: Any) -> None:
-        raise InvalidArgumentError(f"{file}:{parser.CurrentLineNumber}: a document type is not taken")
-
-    parser.StartElementHandler = start
-    parser.EndElementHandler = lambda tag: stack.pop() and None
-    parser.StartDoctypeDeclHandler = refuse
-    try:
-        parser.Parse(data, True)
-    except expat.ExpatError as error:
-        raise InvalidArgumentError(f"{file}:{error.lineno}: {expat.ErrorString(error.code)}") from None
-    return top.children[0]
-
-
-# ---- numbers
-
-
-def turn_of(roll: float, pitch: float, yaw: float) -> Turn:
-    """About x, then y, then z, all fixed axes."""
-    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a / 2), math.cos(a / 2)) for a in (roll, pitch, yaw))
-    return (
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
-
-
-def angles_of(q: Sequence[float]) -> Triple:
-    """Roll, pitch, yaw."""
-    x, y, z, w = q
-    pitch = 2 * (w * y - z * x)
-    if abs(pitch) > 1 - 1e-14:  # straight up or down: roll and yaw are one turn
-        return 0.0, math.copysign(math.pi / 2, pitch), math.copysign(2, -pitch) * math.atan2(x, w)
-    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    return roll, math.asin(pitch), math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-
-
-def principal(matrix: Sequence[Sequence[float]]) -> Tuple[Triple, Turn]:
-    """Moments and axes of a symmetric matrix, by Jacobi's rotations (Golub and Van Loan, Matrix Computations, 8.5)."""
-    a, q = [list(row) for row in matrix], NO_TURN
-    scale = max(abs(x) for row in a for x in row)
-    for _ in range(60):
-        i, k = max(((0, 1), (0, 2), (1, 2)), key=lambda p: abs(a[p[0]][p[1]]))
-        if abs(a[i][k]) <= 1e-17 * scale:
-            break
-        half = 0.5 * math.atan2(2 * a[i][k], a[k][k] - a[i][i])
-        if abs(half) > math.pi / 4:  # the smaller of the two turns that do it
-            half -= math.copysign(math.pi / 2, half)
-        c, s = math.cos(half), math.sin(half)
-        r = [[float(m == n) for n in range(3)] for m in range(3)]
-        r[i][i] = r[k][k] = c
-        r[i][k], r[k][i] = s, -s
-        a = [[sum(r[l][m] * a[l][n] for l in range(3)) for n in range(3)] for m in range(3)]
-        a = [[sum(a[m][l] * r[l][n] for l in range(3)) for n in range(3)] for m in range(3)]
-        axis = 3 - i - k  # the columns of r are the new axes: a turn about the third
-        sign = 1.0 if (i, k) == (0, 2) else -1.0
-        part = [0.0, 0.0, 0.0, math.cos(half / 2)]
-        part[axis] = sign * math.sin(half / 2)
-        q = multiply(q, part)
-    return (a[0][0], a[1][1], a[2][2]), normalized(q)  # type: ignore[return-value]
-
-
-def matrix_of(inertia: Sequence[float], q: Sequence[float]) -> List[List[float]]:
-    """The matrix of principal moments and their axes."""
-    axes = [rotate(q, [float(m == n) for n in range(3)]) for m in range(3)]
-    return [[sum(inertia[k] * axes[k][m] * axes[k][n] for k in range(3)) for n in range(3)] for m in range(3)]
-
-
 # ---- reading
 
 
-@dataclass
-class Frame:
-    """Where something is and how it is turned."""
+class UrdfReader(Reader):
+    """Reads one file."""
 
-    position: Triple = ORIGIN
-    rotation: Turn = NO_TURN
-
-    def then(self, other: "Frame") -> "Frame":
-        """The other, which is given in this one."""
-        turn = normalized(multiply(self.rotation, other.rotation))
-        return Frame(add(self.position, rotate(self.rotation, other.position)), turn)  # type: ignore[arg-type]
-
-
-class Reader:
-    """Reads one file: what is wrong is an error with file, line and element."""
+    FIELDS, LOST = FIELDS, LOST
 
     def __init__(self, file: str, strict: bool, inertia: str):
-        self.file, self.strict, self.inertia = file, strict, inertia
-        self.warnings: List[str] = []
-
-    def fail(self, element: Element, text: str) -> InvalidArgumentError:
-        """The error."""
-        return InvalidArgumentError(f"{self.file}:{element.line}: <{element.tag}>: {text}")
-
-    def warn(self, element: Element, text: str) -> None:
-        """What is not exact: an error when strict."""
-        if self.strict:
-            raise self.fail(element, text)
-        self.warnings.append(f"{self.file}:{element.line}: <{element.tag}>: {text}")
-
-    def known(self, element: Element) -> None:
-        """Are all children known?"""
-        for child in element.children:
-            if child.tag in LOST:
-                self.warn(child, "is left out")
-            elif child.tag not in FIELDS[element.tag]:
-                raise self.fail(child, f"is not known in <{element.tag}>")
-
-    def need(self, element: Element, name: str) -> str:
-        """An attribute."""
-        if name not in element.attributes:
-            raise self.fail(element, f"{name} is missing")
-        return element.attributes[name]
-
-    def numbers(self, element: Element, name: str, count: int, usual: Optional[Sequence[float]] = None) -> List[float]:
-        """An attribute of so many numbers."""
-        if name not in element.attributes and usual is not None:
-            return list(usual)
-        text = self.need(element, name)
-        try:
-            found = [float(word) for word in text.split()]
-        except ValueError:
-            found = []
-        if len(found) != count or not all(abs(x) <= 1e15 for x in found):
-            raise self.fail(element, f"{name}: {count} finite numbers are needed, not {text!r}")
-        return found
-
-    def number(self, element: Element, name: str, usual: Optional[float] = None) -> float:
-        """An attribute of one number."""
-        return self.numbers(element, name, 1, None if usual is None else [usual])[0]
-
-    def positive(self, element: Element, name: str) -> float:
-        """A size."""
-        value = self.number(element, name)
-        if value <= 0:
-            raise self.fail(element, f"{name}: more than 0 is needed, not {value}")
-        return value
+        super().__init__(file, strict)
+        self.inertia = inertia
 
     def origin(self, element: Element) -> Frame:
         """Its <origin>; without one no turn and no way."""
@@ -245,7 +100,9 @@ class Reader:
         xy, xz, yz = (self.number(tensor, name, 0.0) for name in ("ixy", "ixz", "iyz"))
         moments, turn = principal([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         if min(moments) <= 0 or 2 * max(moments) > sum(moments) * (1 + 1e-6):
-            raise self.fail(tensor, f"no body has the moments {moments}: each is above 0, none above the sum of the others")
+            raise self.fail(
+                tensor, f"no body has the moments {moments}: each is above 0, none above the sum of the others"
+            )
         body.inertia = moments
         body.inertia_rotation = frame.then(Frame(ORIGIN, turn)).rotation
 
@@ -283,7 +140,11 @@ class Reader:
         if axis is not None and not any(along):
             raise self.fail(axis, "xyz: a direction is needed")
         made = SceneJoint(
-            self.need(element, "name"), JOINTS[kind], self.need(parent, "link"), self.need(child, "link"), ORIGIN,
+            self.need(element, "name"),
+            JOINTS[kind],
+            self.need(parent, "link"),
+            self.need(child, "link"),
+            ORIGIN,
             normalized(along),  # type: ignore[arg-type]
         )
         self.limits(made, kind, element)
@@ -337,7 +198,12 @@ class Reader:
                 if name not in bodies:
                     raise self.fail(element, f"there is no link {name!r}")
             if joint.b in has_parent or joint.name in names:
-                raise self.fail(element, f"{joint.b!r} has two parents" if joint.b in has_parent else f"a second joint has the name {joint.name!r}")
+                raise self.fail(
+                    element,
+                    f"{joint.b!r} has two parents"
+                    if joint.b in has_parent
+                    else f"a second joint has the name {joint.name!r}",
+                )
             has_parent.add(joint.b), names.add(joint.name)  # type: ignore[func-returns-value]
             children[joint.a or ""].append((joint, frame))
         roots = [name for name in bodies if name not in has_parent]
@@ -346,8 +212,13 @@ class Reader:
         return self.tree(root, bodies, lines, children, roots[0], fixed_base)
 
     def tree(
-        self, root: Element, bodies: Dict[str, SceneBody], lines: Dict[str, Element],
-        children: Dict[str, List[Tuple[SceneJoint, Frame]]], first: str, fixed_base: bool,
+        self,
+        root: Element,
+        bodies: Dict[str, SceneBody],
+        lines: Dict[str, Element],
+        children: Dict[str, List[Tuple[SceneJoint, Frame]]],
+        first: str,
+        fixed_base: bool,
     ) -> Scene:
         """From the base outwards."""
         scene = Scene(root.attributes.get("name", ""), warnings=self.warnings)
@@ -373,50 +244,26 @@ class Reader:
         return scene
 
 
-def load_urdf(
-    source: Any, *, fixed_base: bool = False, strict: bool = False, inertia: str = "from_file"
-) -> Scene:
+def load_urdf(source: Any, *, fixed_base: bool = False, strict: bool = False, inertia: str = "from_file") -> Scene:
     """Of a path, or of the text itself (str that begins with "<", or bytes). The first link is static with fixed_base,
     or when it has no mass. What is not exact is a warning in the scene, with strict=True an error; what is wrong is an
     InvalidArgumentError that names file, line and element. inertia="from_shapes": links without one take that of their
     shapes, at 1000 kg/m3."""
     if inertia not in ("from_file", "from_shapes"):
         raise InvalidArgumentError(f"inertia: from_file or from_shapes is needed, not {inertia!r}")
-    text, file = source, "urdf"
-    if not isinstance(source, bytes) and not (isinstance(source, str) and source.lstrip().startswith("<")):
-        file = os.fspath(source)
-        with open(file, "rb") as stream:
-            text = stream.read(MOST_BYTES + 1)
-    return Reader(file, strict, inertia).robot(parse(text, file), fixed_base)
+    text, file = read_source(source, "urdf")
+    return UrdfReader(file, strict, inertia).robot(parse(text, file), fixed_base)
 
 
 # ---- writing
 
 
-def _escaped(text: str) -> str:
-    for mark, word in (("&", "&amp;"), ("<", "&lt;"), ('"', "&quot;")):
-        text = text.replace(mark, word)
-    return text
-
-
-def _row(values: Sequence[float]) -> str:
-    return " ".join(repr(float(x)) for x in values)
-
-
 def _origin(frame: Frame, indent: str) -> str:
-    return f'{indent}<origin xyz="{_row(frame.position)}" rpy="{_row(angles_of(frame.rotation))}"/>\n'
-
-
-def _inside(outer: Frame, inner: Frame) -> Frame:
-    """The inner frame, as seen from the outer one."""
-    x, y, z, w = outer.rotation
-    back: Turn = (-x, -y, -z, w)
-    way = add(inner.position, [-c for c in outer.position])
-    return Frame(rotate(back, way), normalized(multiply(back, inner.rotation)))  # type: ignore[arg-type]
+    return f'{indent}<origin xyz="{row(frame.position)}" rpy="{row(angles_of(frame.rotation))}"/>\n'
 
 
 def _link(body: SceneBody) -> str:
-    text = f'  <link name="{_escaped(body.name)}">\n'
+    text = f'  <link name="{escaped(body.name)}">\n'
     if body.mass is not None:
         m = matrix_of(body.inertia, body.inertia_rotation)
         parts = {"ixx": m[0][0], "ixy": m[0][1], "ixz": m[0][2], "iyy": m[1][1], "iyz": m[1][2], "izz": m[2][2]}
@@ -431,7 +278,7 @@ def _link(body: SceneBody) -> str:
         elif shape.form == "sphere":
             form = f'<sphere radius="{shape.size[0]!r}"/>'
         else:
-            form = f'<box size="{_row([2 * x for x in shape.size])}"/>'
+            form = f'<box size="{row([2 * x for x in shape.size])}"/>'
         text += f"    <collision>\n{_origin(frame, '      ')}      <geometry>{form}</geometry>\n    </collision>\n"
     return text + "  </link>\n"
 
@@ -445,11 +292,11 @@ def _joint(joint: SceneJoint, frames: Dict[str, Frame]) -> str:
     child = frames[joint.b]
     if max(abs(x - y) for x, y in zip(joint.position, child.position)) > 1e-9:
         raise UnsupportedError(f"save_urdf: joint {joint.name}: URDF has joints at the origin of the child alone")
-    text = f'  <joint name="{_escaped(joint.name)}" type="{kind}">\n'
-    text += _origin(_inside(frames[joint.a], child), "    ")
-    text += f'    <parent link="{_escaped(joint.a)}"/>\n    <child link="{_escaped(joint.b)}"/>\n'
+    text = f'  <joint name="{escaped(joint.name)}" type="{kind}">\n'
+    text += _origin(inside(frames[joint.a], child), "    ")
+    text += f'    <parent link="{escaped(joint.a)}"/>\n    <child link="{escaped(joint.b)}"/>\n'
     x, y, z, w = child.rotation
-    text += f'    <axis xyz="{_row(rotate((-x, -y, -z, w), joint.axis))}"/>\n'
+    text += f'    <axis xyz="{row(rotate((-x, -y, -z, w), joint.axis))}"/>\n'
     if kind in ("revolute", "prismatic") or joint.effort is not None or joint.velocity is not None:
         lower, upper = (0.0, 0.0) if joint.lower is None or joint.upper is None else (joint.lower, joint.upper)
         limits = f' lower="{lower!r}" upper="{upper!r}"' if kind in ("revolute", "prismatic") else ""
@@ -467,4 +314,4 @@ def save_urdf(scene: Scene) -> str:
             raise UnsupportedError(f"save_urdf: joint {joint.name}: URDF has no {joint.type!r}")
     links = "".join(_link(body) for body in scene.bodies)
     joints = "".join(_joint(joint, frames) for joint in scene.joints)
-    return f'<?xml version="1.0"?>\n<robot name="{_escaped(scene.name)}">\n{links}{joints}</robot>\n'
+    return f'<?xml version="1.0"?>\n<robot name="{escaped(scene.name)}">\n{links}{joints}</robot>\n'

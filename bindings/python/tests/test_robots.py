@@ -2,25 +2,21 @@
 
 import json
 import math
-import os
 import random
-import shutil
-import subprocess
 from pathlib import Path
-from typing import Any, Callable, Dict, List
+from typing import Any, Callable, Dict
 
 import numpy as np
 import pytest
 from conftest import ROOT
+from robots import compare_bodies, near, plain
 
 from feather_physics import FeatherError, InvalidArgumentError, UnsupportedError, VersionError, World
-from feather_physics.scene import Scene, SceneBody, SceneJoint, SceneShape, multiply, normalized, rotate
-from feather_physics.urdf import angles_of, load_urdf, matrix_of, principal, save_urdf, turn_of
+from feather_physics.frames import angles_of, matrix_of, multiply, normalized, principal, rotate, turn_of
+from feather_physics.scene import Scene, SceneBody, SceneJoint, SceneShape
+from feather_physics.urdf import load_urdf, save_urdf
 
-REFEREE = ROOT / "tests/robots/referee.c"
 ARM = ROOT / "examples/python/arm.urdf"
-# what MuJoCo must be told: no link is merged with another one
-FOR_REFEREE = '<mujoco><compiler fusestatic="false" discardvisual="true" strippath="false"/></mujoco>'
 
 
 # ---- numbers
@@ -110,33 +106,6 @@ PENDULUM = """<robot name="pendulum">
 """
 
 
-@pytest.fixture(scope="module")
-def referee(tmp_path_factory: Any) -> Callable[..., Any]:
-    folder = tmp_path_factory.mktemp("referee")
-    program = folder / "referee"
-    made = subprocess.run([os.environ.get("CC", "cc"), "-w", REFEREE, "-lmujoco", "-lm", "-o", program], capture_output=True)
-    if made.returncode != 0:
-        if os.environ.get("CI") == "true":
-            pytest.fail(f"libmujoco is missing (tools/deps.sh python): {made.stderr.decode()}")
-        pytest.skip("NOT TESTED beside MuJoCo: libmujoco-dev is not installed")
-
-    def ask(texts: List[str], *seconds: str) -> Any:
-        paths = []
-        for i, text in enumerate(texts):
-            paths.append(folder / f"{i}.urdf")
-            paths[-1].write_text(text.replace("</robot>", FOR_REFEREE + "</robot>"))
-        done = subprocess.run([program, *seconds, *paths], capture_output=True, text=True, cwd=folder)
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
-
-    return ask
-
-
-def in_world(body: SceneBody) -> np.ndarray:
-    """The inertia about the centre, along the axes of the world."""
-    return np.array(matrix_of(body.inertia, multiply(body.rotation, body.inertia_rotation)))
-
-
 def test_robots_are_read_as_mujoco_reads_them(referee: Callable[..., Any]) -> None:
     texts = [random_robot(seed) for seed in range(30)] + [PENDULUM, ARM.read_text()]
     bodies = joints = 0
@@ -144,19 +113,7 @@ def test_robots_are_read_as_mujoco_reads_them(referee: Callable[..., Any]) -> No
         scene = load_urdf(text, fixed_base=True)
         mine = {body.name: body for body in scene.bodies}
         assert set(mine) == {body["name"] for body in wanted["bodies"]}
-        for theirs in wanted["bodies"]:
-            body = mine[theirs["name"]]
-            assert np.allclose(body.position, theirs["position"], rtol=0, atol=1e-5)
-            w, x, y, z = theirs["rotation"]
-            assert abs(abs(np.dot(body.rotation, (x, y, z, w))) - 1) < 1e-10
-            if body.type == "static":
-                continue
-            bodies += 1
-            centre = np.add(body.position, rotate(body.rotation, body.centre))
-            axes = np.array(theirs["axes"]).reshape(3, 3)
-            tensor = axes @ np.diag(theirs["inertia"]) @ axes.T
-            assert abs(body.mass - theirs["mass"]) < 1e-5 and np.allclose(centre, theirs["centre"], rtol=0, atol=1e-5)
-            assert np.allclose(in_world(body), tensor, rtol=0, atol=1e-5 * np.abs(tensor).max())
+        bodies += compare_bodies(mine, wanted["bodies"])
         moving = {joint.name: joint for joint in scene.joints if joint.type != "fixed"}
         assert set(moving) == {joint["name"] for joint in wanted["joints"]}
         for theirs in wanted["joints"]:
@@ -236,27 +193,10 @@ def test_other_joints(kind: str, moves: bool) -> None:
 # ---- writing, JSON
 
 
-def near(a: Any, b: Any) -> bool:
-    """Equal but for rounding."""
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(near(a[k], b[k]) for k in a)
-    if isinstance(a, list):
-        return len(a) == len(b) and all(map(near, a, b))
-    return math.isclose(a, b, rel_tol=0, abs_tol=1e-11) if isinstance(a, float) and isinstance(b, float) else a == b
-
-
 def test_written_robots_are_read_again() -> None:
     for text in [random_robot(seed) for seed in range(30, 60)] + [PENDULUM, ARM.read_text()]:
         scene = load_urdf(text)
-        again = load_urdf(save_urdf(scene))
-        a, b = json.loads(scene.to_json()), json.loads(again.to_json())
-        for one, other in zip(a["bodies"], b["bodies"]):  # principal axes may stand in another order
-            for record in (one, other):
-                q = multiply(record["rotation"], record.pop("inertia_rotation"))
-                record["tensor"] = matrix_of(record.pop("inertia"), q)
-                for held in (record, *record["shapes"]):
-                    held["matrix"] = matrix_of((1, 2, 3), held.pop("rotation"))
-        assert near(a, b)
+        assert near(plain(scene), plain(load_urdf(save_urdf(scene))))
 
 
 def test_json_is_exact() -> None:
