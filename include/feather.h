@@ -2018,6 +2018,11 @@ typedef enum fe_field {
     FE_FIELD_JOINT_TARGET = 8, ///< joint, 1, written: fe_joint_set_target
     FE_FIELD_REACTION = 9,     ///< joint, 6, read: force, torque, as fe_joint_get_reaction
     FE_FIELD_GRAVITY = 10,     ///< the world, 3, read and written
+    /// body, 3, read: what its contacts push it with, N: along normals the mean of the last step, friction that of its
+    /// last substep. Of a body at rest as long as it sleeps
+    FE_FIELD_CONTACT_FORCE = 11,
+    FE_FIELD_MASS = 12,     ///< dynamic body, 1, read and written: fe_body_set_mass, which scales the inertia too
+    FE_FIELD_FRICTION = 13, ///< shape, 2, read and written: static, dynamic friction of its material
     FE_FIELD_FORCE32 = 0x7fffffff
 } fe_field;
 

@@ -171,11 +171,11 @@ static fe_result find_item(const char *function, const char *name, const fe_batc
     int32_t index, first = -1;
     for (int32_t i = 0; i < b->count; ++i) {
         if (mask && !mask[i]) continue;
-        const fe__id_pool *ids = kind == FE_KIND_BODY ? &b->worlds[i]->body_ids : &b->worlds[i]->joint_ids;
-        if (fe__id_pool_find(ids, item, &index) == FE_OK) return FE_OK;
+        if (fe__id_pool_find(fe__field_ids(b->worlds[i], kind), item, &index) == FE_OK) return FE_OK;
         if (first < 0) first = i;
     }
     if (first < 0) return FE_OK; // no world is asked
+    if (kind == FE_KIND_SHAPE) return fe__find_shape(function, name, b->worlds[first], item, &index);
     return kind == FE_KIND_BODY ? fe__find_body(function, name, b->worlds[first], item, &index)
                                 : fe__find_joint(function, name, b->worlds[first], item, &index);
 }

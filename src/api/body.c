@@ -294,25 +294,15 @@ fe_result fe_body_get_mass_data(const fe_world *world, fe_body body, fe_mass_dat
     return FE_OK;
 }
 
-static fe_mass_data scaled_mass(const fe_world *world, int32_t index, float mass)
-{
-    fe__fp_state fp = fe__fp_enter();
-    fe_mass_data data = {.struct_size = sizeof data};
-    fe__body_mass_data(world, index, &data);
-    double scale = (double)mass / (double)data.mass;
-    data.mass = mass;
-    data.inertia = fe__narrow(fe__dscale(scale, fe__widen(data.inertia)));
-    fe__fp_leave(fp);
-    return data;
-}
-
 fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass)
 {
     FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(mass, FE_LEAST_MASS, FE_MAX_MASS);
     FE_TRY(check_dynamic(function, world, index, body));
-    fe_mass_data scaled = scaled_mass(world, index, mass);
+    fe__fp_state fp = fe__fp_enter();
+    fe_mass_data scaled = fe__body_scaled_mass(world, index, mass);
+    fe__fp_leave(fp);
     FE_CHECK_FLOAT(scaled.inertia.x, FE_LEAST_INERTIA, FE_MAX_INERTIA);
     FE_CHECK_FLOAT(scaled.inertia.y, FE_LEAST_INERTIA, FE_MAX_INERTIA);
     FE_CHECK_FLOAT(scaled.inertia.z, FE_LEAST_INERTIA, FE_MAX_INERTIA);

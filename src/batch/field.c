@@ -6,21 +6,30 @@
 #include "world/joint_drive.h"
 #include "world/joint_state.h"
 #include "world/joints.h"
+#include "world/mass.h"
 #include "world/motion.h"
+#include "world/pair_list.h"
+#include "world/points.h"
 #include "world/pose.h"
+#include "world/shapes.h"
 #include "world/sleep.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+const fe__id_pool *fe__field_ids(const fe_world *world, int32_t kind)
+{
+    if (kind == FE_KIND_SHAPE) return &world->shape_ids;
+    return kind == FE_KIND_BODY ? &world->body_ids : &world->joint_ids;
+}
+
 fe_result fe__field_find(const fe_world *world, const fe__batch_field *field, fe_handle item, int32_t *out_index)
 {
     *out_index = 0;
     if (!field->kind) return FE_OK;
-    int32_t is_body = field->kind == FE_KIND_BODY;
-    fe_result result = fe__id_pool_find(is_body ? &world->body_ids : &world->joint_ids, item, out_index);
-    if (!is_body) *out_index += 1; // joint 0 is none
+    fe_result result = fe__id_pool_find(fe__field_ids(world, field->kind), item, out_index);
+    if (field->kind == FE_KIND_JOINT) *out_index += 1; // joint 0 is none
     return result;
 }
 
@@ -103,6 +112,75 @@ static void read_awake(const fe_world *w, int32_t body, const fe__field_frame *f
 {
     (void)frame;
     *out = w->bodies[body].awake_index >= 0;
+}
+
+static fe_vec3 force_of_contact(const fe_world *w, int32_t pair)
+{
+    const fe__contact *c = w->contacts + pair;
+    const fe__points *q = fe__points_of(w, c);
+    float along = 0.0f;
+    for (int32_t i = 0; i < (int32_t)c->point_count; ++i) along += q->total_impulse[i];
+    fe_vec3 normal = fe__vec3(c->normal[0], c->normal[1], c->normal[2]);
+    fe_vec3 friction = fe__vec3(q->friction_impulse[0], q->friction_impulse[1], q->friction_impulse[2]);
+    return fe__add(fe__scale(along / w->last_dt, normal), fe__scale(1.0f / w->last_h, friction));
+}
+
+static void read_contact_force(const fe_world *w, int32_t body, const fe__field_frame *frame, double *out)
+{
+    fe_vec3 sum = fe__vec3(0.0f, 0.0f, 0.0f);
+    for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
+        const fe__pair *p = w->pairs + pair;
+        if (p->flags & FE__PAIR_SENSOR || !w->contacts[pair].point_count || !(w->last_h > 0.0f)) continue;
+        // The solver's B, whom its impulses push, is A where the pair is flipped
+        int32_t pushed = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
+        fe_vec3 force = force_of_contact(w, pair);
+        sum = fe__add(sum, pushed == body ? force : fe__neg(force));
+    }
+    put_vec3(out, fe__rotate_back(frame->rotation, sum));
+}
+
+static void read_mass(const fe_world *w, int32_t body, const fe__field_frame *frame, double *out)
+{
+    (void)frame;
+    *out = (double)w->bodies[body].mass;
+}
+
+static fe_result takes_mass(const fe_world *w, int32_t body, const double *row)
+{
+    if (w->bodies[body].type != FE_BODY_DYNAMIC) return FE_ERROR_STATE;
+    if (!(*row >= (double)FE_LEAST_MASS && *row <= (double)FE_MAX_MASS)) return FE_ERROR_ARGUMENT;
+    fe_vec3 i = fe__body_scaled_mass(w, body, (float)*row).inertia;
+    float least = fe__minf(i.x, fe__minf(i.y, i.z)), most = fe__maxf(i.x, fe__maxf(i.y, i.z));
+    return in_range(least >= FE_LEAST_INERTIA && most <= FE_MAX_INERTIA);
+}
+
+static fe_result write_mass(fe_world *w, int32_t body, const double *row)
+{
+    fe_mass_data scaled = fe__body_scaled_mass(w, body, (float)*row);
+    fe__body_set_mass(w, body, &scaled);
+    return FE_OK;
+}
+
+// ---- shapes --------------------------------------------------------------------------------------------------------
+static void read_friction(const fe_world *w, int32_t shape, const fe__field_frame *frame, double *out)
+{
+    (void)frame;
+    const fe_material *m = &w->shapes[shape].material;
+    out[0] = (double)m->static_friction, out[1] = (double)m->dynamic_friction;
+}
+
+static fe_result takes_friction(const fe_world *w, int32_t shape, const double *row)
+{
+    (void)w, (void)shape;
+    return in_range(are_within(row, 2, (double)FE_MAX_VALUE) && row[0] >= 0.0 && row[1] >= 0.0);
+}
+
+static fe_result write_friction(fe_world *w, int32_t shape, const double *row)
+{
+    fe_material material = w->shapes[shape].material;
+    material.static_friction = (float)row[0], material.dynamic_friction = (float)row[1];
+    fe__shape_set_material(w, shape, &material);
+    return FE_OK;
 }
 
 // ---- the world -----------------------------------------------------------------------------------------------------
@@ -270,6 +348,9 @@ const fe__batch_field *fe__field_of(int32_t field)
         [FE_FIELD_JOINT_TARGET] = {1, FE_KIND_JOINT, NULL, takes_target, write_target, 0},
         [FE_FIELD_REACTION] = {6, FE_KIND_JOINT, read_reaction, NULL, NULL, 0},
         [FE_FIELD_GRAVITY] = {3, 0, read_gravity, takes_gravity, write_gravity, 0},
+        [FE_FIELD_CONTACT_FORCE] = {3, FE_KIND_BODY, read_contact_force, NULL, NULL, 0},
+        [FE_FIELD_MASS] = {1, FE_KIND_BODY, read_mass, takes_mass, write_mass, 0},
+        [FE_FIELD_FRICTION] = {2, FE_KIND_SHAPE, read_friction, takes_friction, write_friction, 0},
     };
     int32_t count = (int32_t)(sizeof fields / sizeof *fields);
     return field > 0 && field < count && fields[field].components ? fields + field : NULL;

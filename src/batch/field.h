@@ -13,7 +13,7 @@ typedef struct fe__field_frame {
 
 typedef struct fe__batch_field {
     int32_t components; // numbers in a row
-    int32_t kind;       // FE_KIND_BODY, FE_KIND_JOINT; 0: the world itself
+    int32_t kind;       // FE_KIND_BODY, FE_KIND_SHAPE, FE_KIND_JOINT; 0: the world itself
     // NULL: it is not read
     void (*read)(const fe_world *world, int32_t item, const fe__field_frame *frame, double *out);
     // May a row be written? FE_ERROR_ARGUMENT: a number is out of range or NaN; FE_ERROR_STATE: the item has no such
@@ -23,7 +23,8 @@ typedef struct fe__batch_field {
     int32_t is_of_a_step;                                                 // 1: what is written acts for one step
 } fe__batch_field;
 
-const fe__batch_field *fe__field_of(int32_t field); // fe_field; NULL: there is none
+const fe__batch_field *fe__field_of(int32_t field);                    // fe_field; NULL: there is none
+const fe__id_pool *fe__field_ids(const fe_world *world, int32_t kind); // not of the world itself
 // The record that a handle names, and of what kind it must be. FE_ERROR_STALE, FE_ERROR_KIND
 fe_result fe__field_find(const fe_world *world, const fe__batch_field *field, fe_handle item, int32_t *out_index);
 

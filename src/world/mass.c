@@ -250,3 +250,13 @@ void fe__body_mass_data(const fe_world *world, int32_t index, fe_mass_data *out_
     out_data->inertia = fe__quad_vector(body->inertia);
     out_data->inertia_rotation = fe__quat_of(body->inertia_axes);
 }
+
+fe_mass_data fe__body_scaled_mass(const fe_world *world, int32_t body, float mass)
+{
+    fe_mass_data data = {.struct_size = sizeof data};
+    fe__body_mass_data(world, body, &data);
+    double scale = (double)mass / (double)data.mass;
+    data.mass = mass;
+    data.inertia = fe__narrow(fe__dscale(scale, fe__widen(data.inertia)));
+    return data;
+}

@@ -11,6 +11,8 @@ void fe__body_sizes_changed(fe_world *world, int32_t body);
 void fe__body_densities_changed(fe_world *world, int32_t body);
 void fe__settle_sizes(fe_world *world);
 void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data); // given
+// What the body would have with this mass, spread as it is, kg
+fe_mass_data fe__body_scaled_mass(const fe_world *world, int32_t body, float mass);
 void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
 
 #endif

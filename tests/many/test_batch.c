@@ -570,6 +570,103 @@ static void what_is_written_is_read(void **state)
 }
 
 // ---- what fails, fails alone --------------------------------------------------------------------------------------
+// A box of 2 kg on a slope of 0.2 rad, where friction of 0.6 holds it
+static fe_world *slope_world(fe_body *out_ground, fe_body *out_box, fe_shape *out_shape)
+{
+    fe_world *world = make_world(NULL, NULL);
+    fe_geometry form;
+    fe_geometry_plane(&form, sinf(0.2f), cosf(0.2f), 0.0f, 0.0f);
+    *out_ground = add(world, FE_BODY_STATIC, 0.0, &form);
+    fe_geometry_box(&form, 0.5f, 0.2f, 0.4f);
+    *out_box = add(world, FE_BODY_DYNAMIC, 0.0, &form);
+    const fe_transform at = {{0.2 * sin(0.2), 0.2 * cos(0.2), 0.0}, {0.0f, 0.0f, -sinf(0.1f), cosf(0.1f)}};
+    OK(fe_body_set_transform(world, *out_box, &at));
+    OK(fe_body_set_mass(world, *out_box, 2.0f));
+    FE_TRUE(fe_body_get_shapes(world, *out_box, out_shape, 1) == 1);
+    return world;
+}
+
+// Gravity pulls it by m g, so its contacts push it by as much, straight up; and the ground by the opposite
+static void contacts_bear_what_weighs(void **state)
+{
+    (void)state;
+    fe_body ground, box;
+    fe_shape shape;
+    fe_world *world = slope_world(&ground, &box, &shape);
+    fe_batch *batch = make_batch(world, WORLDS, 2, 0, FE_SIMD_AUTO);
+    static float masses[WORLDS][1], forces[WORLDS][2][3], seen[WORLDS][1][3];
+    for (int32_t w = 0; w < WORLDS; ++w) masses[w][0] = 2.0f + (float)w;
+    fe_array mass = array_of(&box, 1, FE_FIELD_MASS, 1, masses);
+    fe_array both = array_of((fe_handle[]){box, ground}, 2, FE_FIELD_CONTACT_FORCE, 3, forces),
+             along = array_of(&box, 1, FE_FIELD_CONTACT_FORCE, 3, seen);
+    along.relative_to = box;
+    FE_TRUE(fe_batch_write(batch, &mass, NULL, NULL) == 0);
+    FE_TRUE(fe_batch_read(batch, &both, NULL) == 0); // before the first step
+    FE_TRUE(forces[1][0][1] == 0.0f && forces[1][1][1] == 0.0f);
+    FE_TRUE(fe_batch_step(batch, DT, 300, NULL, NULL) == 0); // it sleeps by now
+    FE_TRUE(fe_batch_read(batch, &both, NULL) == 0 && fe_batch_read(batch, &along, NULL) == 0);
+    for (int32_t w = 0; w < WORLDS; ++w) {
+        double weight = 9.81 * (double)masses[w][0], most = 2e-3 * weight; // of what an iteration leaves
+        FE_NEAR(forces[w][0][0], 0, most);
+        FE_NEAR(forces[w][0][1], weight, most);
+        FE_NEAR(forces[w][0][2], 0, most);
+        for (int32_t k = 0; k < 3; ++k) FE_TRUE(forces[w][0][k] == -forces[w][1][k]);
+        FE_NEAR(seen[w][0][0], -weight * sin(0.2), most); // friction
+        FE_NEAR(seen[w][0][1], weight * cos(0.2), most);
+    }
+    OK(fe_batch_destroy(batch));
+    destroy(world);
+}
+
+static void masses_and_frictions_are_those_of_the_calls(void **state)
+{
+    (void)state;
+    fe_body ground, box;
+    fe_shape shape;
+    fe_world *world = slope_world(&ground, &box, &shape), *alone;
+    fe_batch *batch = make_batch(world, WORLDS, 2, 0, FE_SIMD_AUTO);
+    static float masses[WORLDS][1], frictions[WORLDS][2], seen[WORLDS][2], weighed[WORLDS][1];
+    for (int32_t w = 0; w < WORLDS; ++w) {
+        masses[w][0] = 1.0f + 0.5f * (float)w;
+        frictions[w][0] = 0.05f * (float)w, frictions[w][1] = 0.04f * (float)w;
+    }
+    fe_array mass = array_of(&box, 1, FE_FIELD_MASS, 1, masses), weigh = array_of(&box, 1, FE_FIELD_MASS, 1, weighed),
+             friction = array_of(&shape, 1, FE_FIELD_FRICTION, 2, frictions),
+             look = array_of(&shape, 1, FE_FIELD_FRICTION, 2, seen);
+    FE_TRUE(fe_batch_write(batch, &mass, NULL, NULL) == 0 && fe_batch_write(batch, &friction, NULL, NULL) == 0);
+    FE_TRUE(fe_batch_read(batch, &weigh, NULL) == 0 && fe_batch_read(batch, &look, NULL) == 0);
+    FE_TRUE(memcmp(seen, frictions, sizeof seen) == 0 && memcmp(weighed, masses, sizeof masses) == 0);
+    FE_TRUE(fe_batch_step(batch, DT, 30, NULL, NULL) == 0);
+    for (int32_t w = 0; w < WORLDS; ++w) {
+        fe_material material;
+        OK(fe_world_clone(world, NULL, &alone));
+        OK(fe_body_set_mass(alone, box, masses[w][0]));
+        OK(fe_shape_get_material(alone, shape, &material));
+        material.static_friction = frictions[w][0], material.dynamic_friction = frictions[w][1];
+        OK(fe_shape_set_material(alone, shape, &material));
+        for (int32_t i = 0; i < 30; ++i) step(alone);
+        FE_TRUE(hash_of(alone) == hash_of(world_of(batch, w)));
+        destroy(alone);
+    }
+    // each bad row fails its world and changes nothing there
+    int32_t results[WORLDS];
+    static const float bad[] = {NAN, -1.0f, INFINITY};
+    for (int32_t k = 0; k < 3; ++k) {
+        masses[2][0] = frictions[2][1] = bad[k];
+        FE_TRUE(fe_batch_write(batch, &mass, NULL, results) == 1 && results[2] == FE_ERROR_ARGUMENT);
+        FE_TRUE(fe_batch_write(batch, &friction, NULL, results) == 1 && results[2] == FE_ERROR_ARGUMENT);
+    }
+    masses[2][0] = 0.0f;
+    FE_TRUE(fe_batch_write(batch, &mass, NULL, results) == 1 && results[2] == FE_ERROR_ARGUMENT);
+    FE_TRUE(fe_batch_read(batch, &weigh, NULL) == 0 && weighed[2][0] == 2.0f);
+    mass.items = &ground; // a static body has no mass
+    FE_TRUE(fe_batch_write(batch, &mass, NULL, results) == WORLDS && results[0] == FE_ERROR_STATE);
+    friction.items = &box;
+    FE_TRUE(fe_batch_write(batch, &friction, NULL, NULL) == FE_ERROR_KIND);
+    OK(fe_batch_destroy(batch));
+    destroy(world);
+}
+
 static void a_bad_row_fails_its_world(void **state)
 {
     (void)state;
@@ -1071,6 +1168,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(inputs_are_the_calls_that_they_stand_for),
         cmocka_unit_test(a_joint_s_force_turns_and_pulls),
         cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(contacts_bear_what_weighs),
+        cmocka_unit_test(masses_and_frictions_are_those_of_the_calls),
         cmocka_unit_test(a_bad_row_fails_its_world),
         cmocka_unit_test(a_target_has_the_range_of_the_definition),
         cmocka_unit_test(a_row_of_what_is_gone_is_zero),

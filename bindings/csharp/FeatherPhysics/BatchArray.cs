@@ -42,10 +42,20 @@ namespace FeatherPhysics
             : this(field, data, null, Ids(joints)) { }
         public BatchArray(BatchField field, double[] data, params JointHandle[] joints)
             : this(field, null, data, Ids(joints)) { }
+        /// <summary>Of shapes.</summary>
+        /// <param name="data">as many numbers as worlds x items x the row: exactly these</param>
+        public BatchArray(BatchField field, float[] data, params ShapeHandle[] shapes)
+            : this(field, data, null, Ids(shapes)) { }
+        public BatchArray(BatchField field, double[] data, params ShapeHandle[] shapes)
+            : this(field, null, data, Ids(shapes)) { }
 
         static ulong[] Ids(BodyHandle[] bodies)
         {
             return bodies == null ? null : Array.ConvertAll(bodies, body => body.Value);
+        }
+        static ulong[] Ids(ShapeHandle[] shapes)
+        {
+            return shapes == null ? null : Array.ConvertAll(shapes, shape => shape.Value);
         }
         static ulong[] Ids(JointHandle[] joints)
         {

@@ -140,6 +140,15 @@ namespace FeatherPhysics.Tests
                     new[] { false, true, true }), 0, "failed");
                 Check.True(batch[0].Gravity == world.Gravity && batch[1].Gravity == new Vector3(1, 2, 3) &&
                     batch[2].Gravity == new Vector3(4, 5, 6), "written");
+                ShapeHandle[] shapes = new ShapeHandle[1];
+                world[ball.Handle].GetShapes(shapes);
+                double[] friction = new double[6];
+                batch.Write(new BatchArray(BatchField.Friction, new float[] { 0, 1, 2, 3, 4, 5 }, shapes));
+                batch.Read(new BatchArray(BatchField.Friction, friction, shapes));
+                Check.True(friction[0] == 0 && friction[3] == 3 && friction[5] == 5, "of shapes");
+                float[] mass = new float[3];
+                batch.Read(new BatchArray(BatchField.Mass, mass, ball.Handle));
+                Check.True(mass[0] > 0 && mass[0] == mass[1], "mass");
                 double[] at = new double[21];
                 ball = batch[1][ball.Handle];
                 BatchArray near = new BatchArray(BatchField.Transform, at, ball.Handle) { Origin = new DVec3(1, 0, 0) };

@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _flat
 from .errors import FeatherError, InvalidArgumentError, UnsupportedError
-from .objects import Body, Joint, handle_of
+from .objects import Body, Joint, Shape, handle_of
 from .records import Vector
 from .state import State
 from .words import SIMD_SETS, word
@@ -25,6 +25,9 @@ FIELDS: Dict[str, Tuple[int, Optional[type], int]] = {
     "joint_target": (8, Joint, 1),
     "reaction": (9, Joint, 6),  # force, torque
     "gravity": (10, None, 3),
+    "contact_force": (11, Body, 3),  # N, of all contacts
+    "mass": (12, Body, 1),
+    "friction": (13, Shape, 2),  # static, dynamic
 }
 ORIGIN = (0.0, 0.0, 0.0)
 

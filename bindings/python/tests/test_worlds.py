@@ -112,6 +112,23 @@ def test_fields_are_read_and_written(world: World) -> None:
         assert (far[:, 0, 0] < -90).all()
 
 
+def test_worlds_differ_in_mass_and_friction(world: World) -> None:
+    world.create_body("static").add_plane()
+    box = world.create_body(position=(0, 0.5, 0))
+    shape = box.add_box(0.5, 0.5, 0.5)
+    with Worlds(world, COUNT) as worlds:
+        masses = 1 + np.arange(COUNT, dtype=np.float32).reshape(COUNT, 1, 1)
+        worlds.write("mass", [box], masses)
+        worlds.write("friction", [shape], np.tile(np.float32(0.1) * masses, (1, 1, 2)))
+        assert (np.asarray(worlds.read("mass", [box])) == masses).all()
+        felt = worlds.output("contact_force", [box])
+        worlds.step(steps=120)
+        assert np.allclose(np.asarray(felt)[:, 0, 1], 9.81 * masses[:, 0, 0], rtol=1e-2)
+        assert np.asarray(worlds.read("friction", [shape])).shape == (COUNT, 1, 2)
+        with pytest.raises(TypeError, match="Shape"):
+            worlds.read("friction", [box])
+
+
 def test_worlds_that_fail_are_told_and_the_others_go_on(world: World) -> None:
     bodies = build(world)
     with Worlds(world, COUNT) as worlds:
