@@ -1,7 +1,6 @@
 // held.c - see held.h.
 #include "state/held.h"
 
-#include "core/stream.h"
 #include "state/restore.h"
 #include "world/asset_users.h"
 #include "world/sleep.h"
@@ -142,16 +141,9 @@ static void lay_out(fe__held *held, const fe_world *w)
     }
 }
 
-// Sixteen frames of more than that are larger than the caches of most machines, bytes
-enum { LARGE_FRAME = 1 << 20 };
-
 static void copy_array(const fe__held *held, int32_t i, const void *elements)
 {
-    if (!held->used[i]) return;
-    if (held->bytes > LARGE_FRAME)
-        fe__stream(held->arrays[i], elements, (size_t)held->used[i]);
-    else
-        memcpy(held->arrays[i], elements, (size_t)held->used[i]);
+    if (held->used[i]) memcpy(held->arrays[i], elements, (size_t)held->used[i]);
 }
 
 int32_t fe__held_fill(fe__held *held, const fe_world *w, fe__memory *memory, const fe__held *before)
