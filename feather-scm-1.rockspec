@@ -30,6 +30,7 @@ build = {
             ["feather.query"] = "bindings/lua/feather/query.lua",
             ["feather.shape"] = "bindings/lua/feather/shape.lua",
             ["feather.history"] = "bindings/lua/feather/history.lua",
+            ["feather.state"] = "bindings/lua/feather/state.lua",
             ["feather.recording"] = "bindings/lua/feather/recording.lua",
             ["feather.snapshot"] = "bindings/lua/feather/snapshot.lua",
             ["feather.store"] = "bindings/lua/feather/store.lua",

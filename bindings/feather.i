@@ -41,7 +41,7 @@
 %ignore fe_array;
 %ignore fe_array_init;
 #endif
-#if !defined(SWIGPYTHON) && !defined(SWIGCSHARP)
+#if !defined(SWIGPYTHON) && !defined(SWIGCSHARP) && !defined(SWIGLUA)
 %rename("$ignore", regexmatch$name="^fe_state(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_world_clone;
 %ignore fe_world_set_state;

@@ -43,6 +43,13 @@ typedef struct recorder_box {
     fe_recorder *recorder; ///< NULL: closed. It outlives its world
 } recorder_box;
 
+typedef struct state_box {
+    const void *type;
+    int own;
+    fe_state *state; ///< NULL: closed. It outlives its world
+} state_box;
+
+static const char state_type[] = "feather.state";
 static const char recorder_type[] = "feather.recorder";
 static const char history_type[] = "feather.history";
 static const char world_type[] = "feather.world";
@@ -90,6 +97,14 @@ static int collect_recorder(lua_State *L)
     return 0;
 }
 
+static int collect_state(lua_State *L)
+{
+    state_box *box = luaL_checkudata(L, 1, state_type);
+    if (box->state) (void)fe_state_destroy(box->state);
+    box->state = NULL;
+    return 0;
+}
+
 static void add_type(lua_State *L, const char *name, lua_CFunction collect)
 {
     luaL_newmetatable(L, name);
@@ -107,6 +122,7 @@ static void add_types(lua_State *L)
     add_type(L, store_type, collect_store);
     add_type(L, history_type, collect_history);
     add_type(L, recorder_type, collect_recorder);
+    add_type(L, state_type, collect_state);
 }
 
 // ---- what an object keeps alive -------------------------------------------------------------------------------------
@@ -166,17 +182,18 @@ static void keep_alive(lua_State *L, int object)
 
 // ---- making them ----------------------------------------------------------------------------------------------------
 
-/// A new world keeps what its definition, at index 1, keeps: its pool and its store. A pool whose finalizer comes first
-/// is refused its end; its threads outlive the state, and the library is unloaded under them.
-static void push_world(lua_State *L, fe_world *world)
+/// A new world keeps what its definition keeps: its pool and its store. A pool whose finalizer comes first is refused
+/// its end; its threads outlive the state, and the library is unloaded under them.
+static void push_world(lua_State *L, fe_world *world, int definition)
 {
     world_box *box = lua_newuserdata(L, sizeof *box);
     *box = (world_box){.type = SWIGTYPE_p_fe_world, .world = world};
     luaL_getmetatable(L, world_type);
     lua_setmetatable(L, -2);
-    if (lua_type(L, 1) != LUA_TUSERDATA) return;
+    (void)fe_world_set_pair_filter(world, NULL, NULL); // a clone's would ask the function of its source
+    if (lua_type(L, definition) != LUA_TUSERDATA) return;
     int made = lua_gettop(L);
-    push_kept(L, 1);
+    push_kept(L, definition);
     keep_as(L, made, "definition");
     lua_pop(L, 1);
 }
@@ -214,6 +231,14 @@ static void push_recorder(lua_State *L, fe_recorder *recorder)
     recorder_box *box = lua_newuserdata(L, sizeof *box);
     *box = (recorder_box){.type = SWIGTYPE_p_fe_recorder, .recorder = recorder};
     luaL_getmetatable(L, recorder_type);
+    lua_setmetatable(L, -2);
+}
+
+static void push_state(lua_State *L, fe_state *state)
+{
+    state_box *box = lua_newuserdata(L, sizeof *box);
+    *box = (state_box){.type = SWIGTYPE_p_fe_state, .state = state};
+    luaL_getmetatable(L, state_type);
     lua_setmetatable(L, -2);
 }
 
@@ -269,6 +294,13 @@ static fe_recorder *to_recorder(lua_State *L, int index)
     const recorder_box *box = box_at(L, index, recorder_type, "recorder");
     if (!box->recorder) fail(L, "feather: the recorder is closed");
     return box->recorder;
+}
+
+static fe_state *to_state(lua_State *L, int index)
+{
+    const state_box *box = box_at(L, index, state_type, "state");
+    if (!box->state) fail(L, "feather: the state is closed");
+    return box->state;
 }
 
 /// recorder_read(recorder): a string of what waits

@@ -36,7 +36,11 @@
 %}
 %typemap(argout) const fe_world * ""
 %typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
-%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; %}
+// a clone's definition is behind its source
+%typemap(argout) fe_world **out_world %{
+    push_world(L, *$1, strcmp("$symname", "world_clone") == 0 ? 2 : 1);
+    SWIG_arg++;
+%}
 %exception fe_world_step %{ result = step(L, arg1, arg2); %}
 
 %typemap(in) (fe_pair_filter filter, void *user) "$1 = to_pair_filter(L, $input); $2 = lua_touserdata(L, 1);"
@@ -85,6 +89,15 @@
     if (strcmp("$symname", "history_destroy") == 0) ((history_box *)lua_touserdata(L, 1))->history = NULL;
 %}
 %typemap(argout) const fe_history * ""
+
+%typemap(in, numinputs=0) const fe_allocator *allocator "$1 = NULL;"
+%typemap(in, numinputs=0) fe_state **out_state (fe_state *made = 0) "$1 = &made;"
+%typemap(argout) fe_state **out_state %{ push_state(L, *$1); SWIG_arg++; %}
+%typemap(in) fe_state * "$1 = to_state(L, $input);"
+%typemap(in) const fe_state * = fe_state *;
+%typemap(check) fe_state *, const fe_state * "$1 = to_state(L, $argnum);"
+%typemap(argout) fe_state *state %{ ((state_box *)lua_touserdata(L, 1))->state = NULL; %}
+%typemap(argout) const fe_state * ""
 
 %typemap(in, numinputs=0) fe_recorder **out_recorder (fe_recorder *made = 0) "$1 = &made;"
 %typemap(argout) fe_recorder **out_recorder %{ push_recorder(L, *$1); SWIG_arg++; %}

@@ -31,6 +31,7 @@ local Box = ffi.typeof("struct { fe_world *const p; fe_pool *const pool; fe_stor
 local PoolBox = ffi.typeof("struct { fe_pool *const p; }")
 local StoreBox = ffi.typeof("struct { fe_store *const p; }")
 local HistoryBox = ffi.typeof("struct { fe_history *const p; }")
+local StateBox = ffi.typeof("struct { fe_state *const p; }")
 local RecorderBox = ffi.typeof("struct { fe_recorder *const p; }")
 local env = { C = C, ffi = ffi, tonumber = tonumber, type = type, math = math }
 
@@ -106,16 +107,31 @@ local function end_recorder(box)
 end
 function env.new_recorder(pointer) return ffi.gc(RecorderBox(pointer), end_recorder) end
 
+function env.state(box)
+    if not ffi.istype(StateBox, box) then fail("a state is needed, not a %s", type(box)) end
+    if box.p == nil then fail("the state is closed") end
+    return box.p
+end
+local function end_state(box)
+    if box.p ~= nil then C.fe_state_destroy(box.p) end
+end
+function env.new_state(pointer) return ffi.gc(StateBox(pointer), end_state) end
+
 local function end_world(box)
     if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then env.forget(box) end
 end
 local function end_pool(box) end_shared(box.p, C.fe_pool_destroy) end
 local function end_store(box) end_shared(box.p, C.fe_store_destroy) end
-function env.new_world(pointer, def)
-    local pool, store = def and def.pool or nil, def and def.store or nil
+local function new_world(pointer, pool, store)
     use(pool)
     use(store)
     return ffi.gc(Box(pointer, pool, store), end_world)
+end
+function env.new_world(pointer, def) return new_world(pointer, def and def.pool or nil, def and def.store or nil) end
+-- Its filter would ask the function of its source.
+function env.new_clone(pointer, source, def)
+    C.fe_world_set_pair_filter(pointer, nil, nil)
+    return new_world(pointer, def and def.pool or nil, source.store)
 end
 function env.new_pool(pointer) return ffi.gc(PoolBox(pointer), end_pool) end
 function env.new_store(pointer) return ffi.gc(StoreBox(pointer), end_store) end
@@ -135,11 +151,11 @@ local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
     fe_asset_save = true, fe_asset_load = true, fe_asset_get_key = true, fe_world_save = true, fe_world_restore = true,
     fe_world_load = true, fe_snapshot_check = true, fe_snapshot_get_assets = true,
-    fe_snapshot_compare = true, fe_world_clone = true, fe_world_set_state = true,
+    fe_snapshot_compare = true,
     fe_recorder_read = true, fe_recorder_note = true,
 }
 -- for hosts in C
-local FOR_C = { "^fe_player", "^fe_div", "^fe_batch", "^fe_state", "^fe_array" }
+local FOR_C = { "^fe_player", "^fe_div", "^fe_batch", "^fe_array" }
 local function is_for_c(name)
     for _, front in ipairs(FOR_C) do
         if name:find(front) then return true end

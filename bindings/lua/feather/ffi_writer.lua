@@ -33,7 +33,7 @@ local ARRAYS = {
     values = 'floats(%s, 1, count, "values")',
 }
 local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store", fe_history = "history",
-    fe_recorder = "recorder",
+    fe_recorder = "recorder", fe_state = "state",
 }
 local TABLES = {
     fe_query_filter = "filter", fe_heightfield_def = "heightfield", fe_hull_def = "hull", fe_mesh_def = "mesh",
@@ -49,7 +49,7 @@ local PLURAL = {
 }
 local DESTROYED = {
     fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true, fe_history_destroy = true,
-    fe_recorder_destroy = true,
+    fe_recorder_destroy = true, fe_state_destroy = true,
 }
 
 -- ---- parameters: each adds to the function f its argument, code before the call, the call's argument, results -------
@@ -87,6 +87,10 @@ end
 -- A table that becomes an array or a struct, which `kept` keeps until the call is done; or a record.
 local function write_input(f, p)
     local i, a = p.index, p.a
+    if p.kind == "fe_allocator" then -- for hosts in C
+        add(f.call, "nil")
+        return
+    end
     add(f.arguments, a)
     if BOXES[p.kind] then add(f.call, "%s(%s)", BOXES[p.kind], a)
     elseif TABLES[p.kind] then
@@ -133,6 +137,7 @@ local function write_box(f, p)
     add(f.upvalues, "local %s = ffi.new(%q)", p.o, p.kind .. " *[1]")
     add(f.call, p.o)
     if f.name == "fe_world_get_store" then add(f.results, "store_of(%s[0], a1)", p.o)
+    elseif f.name == "fe_world_clone" then add(f.results, "new_clone(%s[0], a1, a2)", p.o)
     elseif p.kind == "fe_world" then add(f.results, "new_world(%s[0], a1)", p.o) -- behind its definition
     elseif p.kind == "fe_history" then add(f.results, "new_history(%s[0], a1)", p.o) -- behind its world
     else add(f.results, "new%s(%s[0])", p.kind:sub(3), p.o) end

@@ -33,6 +33,59 @@ end
 
 TestSnapshots = {}
 
+-- A clone goes on as its source, with the filter and the user data, and outlives it.
+function TestSnapshots.testACloneGoesOnAsItsSource()
+    local asked = {}
+    local world, bodies = scene()
+    world:setUserData("level")
+    world:setPairFilter(function() asked[#asked + 1] = 1 return true end)
+    steps(world, 20)
+    world:newBody({ position = { 0.2, 12, 0 } }):newSphere(0.2, { pairFilter = true })
+    local clone = world:clone({ workers = 2 })
+    local body = clone:getBodies()[2]
+    lu.assertEquals(body.id, world:getBodies()[2].id)
+    lu.assertEquals({ clone:getUserData(), body:getUserData() }, { "level", world:getBodies()[2]:getUserData() })
+    asked = {}
+    steps(world, 90)
+    local count = #asked
+    asked = {}
+    steps(clone, 90)
+    lu.assertEquals({ clone:getHash(), #asked }, { world:getHash(), count })
+    lu.assertTrue(count > 0)
+    world:setPairFilter(nil) -- of the source alone
+    world:destroy()
+    world, bodies = nil, nil
+    collectgarbage()
+    collectgarbage()
+    steps(clone, 5)
+    lu.assertEquals(#clone:getBodies(), 8)
+    fails("store", clone.clone, clone, { store = feather.newStore() })
+    fails("worker_count", clone.clone, clone, { workers = 1000 })
+end
+
+function TestSnapshots.testAStateIsGoneBackTo()
+    local world, bodies = scene()
+    steps(world, 10)
+    local state, hash = world:newState(), world:getHash()
+    local clone = world:clone()
+    local later = world:newBody({ userData = "later" })
+    steps(world, 25)
+    steps(clone, 3)
+    world:setState(state)
+    clone:setState(state)
+    lu.assertEquals({ world:getHash(), clone:getHash() }, { hash, hash })
+    lu.assertTrue(later:isDestroyed())
+    lu.assertEquals(bodies[1]:getUserData(), "body 1")
+    fails("world", scene().setState, scene(), state) -- of another store
+    fails("newState", world.setState, world, {})
+    fails("newState", world.setState, world, nil)
+    fails("state", core.world_set_state, world.native, world.native)
+    state:close()
+    state:close()
+    fails("closed", world.setState, world, state)
+    lu.assertEquals(world:getHash(), hash)
+end
+
 -- What differs from a base, and back
 function TestSnapshots.testADifferenceGoesWithItsBase()
     local world = scene()
