@@ -7,6 +7,7 @@
 
 #include "lua/arrays.h"
 #include "lua/assets.h"
+#include "lua/batch.h"
 #include "lua/boxes.h"
 #include "lua/errors.h"
 #include "lua/objects.h"
@@ -15,6 +16,7 @@
 %}
 %init %{
     add_types(L);
+    add_type(L, batch_type, collect_batch);
     hide_helpers(L, &swig_module);
 %}
 %native(hide_lines) int hide_lines(lua_State *L);
@@ -107,6 +109,14 @@
     if (strcmp("$symname", "recorder_destroy") == 0) ((recorder_box *)lua_touserdata(L, 1))->recorder = NULL;
 %}
 %typemap(in) const char *text "$1 = (char *)to_text(L, $input, \"$1_name\");"
+%native(batch_create) int batch_create(lua_State *L);
+%native(batch_destroy) int batch_destroy(lua_State *L);
+%native(batch_step) int batch_step(lua_State *L);
+%native(batch_reset) int batch_reset(lua_State *L);
+%native(batch_read) int batch_read(lua_State *L);
+%native(batch_write) int batch_write(lua_State *L);
+%native(batch_hash) int batch_hash(lua_State *L);
+
 %native(recorder_read) int recorder_read(lua_State *L);
 %ignore fe_recorder_read;
 

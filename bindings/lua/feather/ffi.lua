@@ -53,6 +53,7 @@ local function release(pointer)
         waiting[at] = nil
     end
 end
+env.use, env.release = use, release
 local function end_shared(pointer, destroy)
     if pointer == nil then return end
     if users[address(pointer)] then waiting[address(pointer)] = destroy else destroy(pointer) end
@@ -186,6 +187,7 @@ for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
 end
 
 require("feather.ffi_bytes")(core, env)
+require("feather.ffi_batch")(core, env)
 
 -- ---- geometries: the inline functions of the header -----------------------------------------------------------------
 
