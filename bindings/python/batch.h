@@ -72,8 +72,38 @@ static PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments)
     Py_RETURN_NONE;
 }
 
-// ---- buffers
-// ---------------------------------------------------------------------------------------------------------
+/// (batch, index): the capsule of a world, which has to hold the batch (see keep)
+static PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments)
+{
+    PyObject *batch;
+    int index;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "Oi", &batch, &index)) return NULL;
+    batch_box *box = batch_of(batch);
+    fe_world *world = NULL;
+    const fe_result result = box ? fe_batch_get_world(box->batch, index, &world) : FE_OK;
+    if (result != FE_OK) raise_result(result);
+    if (!box || result != FE_OK) return NULL;
+    world_box *made = calloc(1, sizeof *made);
+    PyObject *capsule = made ? PyCapsule_New(made, world_name, release_world) : PyErr_NoMemory();
+    if (!capsule) return free(made), NULL;
+    *made = (world_box){.world = world, .is_of_batch = 1, .kept = Py_NewRef(batch)};
+    return capsule;
+}
+
+/// (world of a batch that is closed)
+static PyObject *flat_batch_end_world(PyObject *self, PyObject *arguments)
+{
+    PyObject *capsule;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "O", &capsule)) return NULL;
+    world_box *box = world_of(capsule);
+    if (!box) return NULL;
+    if (box->is_of_batch) close_world(box);
+    Py_RETURN_NONE;
+}
+
+// ---- buffers --------------------------------------------------------------------------------------------------------
 /// A buffer for the time of a call; None: there is none
 static int take_buffer(PyObject *object, int flags, Py_buffer *out)
 {

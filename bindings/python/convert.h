@@ -64,6 +64,7 @@ typedef struct world_box {
     int steppers;          ///< 1 while a thread steps it without the GIL, more when its filter steps again
     unsigned long stepper; ///< that thread
     PyObject *player;      ///< the capsule of the player that the world belongs to; NULL: it belongs to the box
+    int is_of_batch;       ///< 1: it belongs to the batch that `kept` holds
     fe_recorder *orphan;   ///< nobody has it any more, and the world was in use when it was to end. Or NULL
 } world_box;
 
@@ -117,7 +118,7 @@ static void release_world(PyObject *capsule)
     if (!box) return;
     player_box *player = box->player ? PyCapsule_GetPointer(box->player, player_name) : NULL;
     if (player && player->view == capsule) player->view = NULL;
-    if (box->world && !box->player) (void)fe_world_destroy(box->world);
+    if (box->world && !box->player && !box->is_of_batch) (void)fe_world_destroy(box->world);
     close_world(box);
     Py_XDECREF(box->player);
     free(box);

@@ -21,6 +21,8 @@
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
+%native(batch_get_world) PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments);
+%native(batch_end_world) PyObject *flat_batch_end_world(PyObject *self, PyObject *arguments);
 %native(batch_create) PyObject *flat_batch_create(PyObject *self, PyObject *arguments);
 %native(batch_destroy) PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments);
 %native(batch_bind) PyObject *flat_batch_bind(PyObject *self, PyObject *arguments);

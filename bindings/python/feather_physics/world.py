@@ -10,6 +10,7 @@ from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Seque
 
 from . import _flat, picture, records
 from ._flat import Bounds, Vec3
+from .errors import UnsupportedError
 from .history import History
 from .objects import Body, Joint, Shape, handle_of
 from .recording import DRAIN_STEPS, Path, Recorder, Recording, begin
@@ -76,7 +77,7 @@ class World:
     """Everything that can touch each other. `with World() as world:` closes it at the end; so does losing it and all
     that is in it."""
 
-    __slots__ = ("_capsule", "_closed", "_store", "_has_own_store", "_user_data", "_pair_filter", "_recording", "__weakref__")
+    __slots__ = ("_capsule", "_closed", "_store", "_has_own_store", "_user_data", "_pair_filter", "_recording", "_is_of_batch", "__weakref__")
 
     def __init__(
         self,
@@ -106,7 +107,7 @@ class World:
             definition.store = store._capsule
         self._begin(_flat.world_create(definition), pool, store)
 
-    def _begin(self, capsule: Any, pool: Optional[Pool], store: Optional[Store]) -> None:
+    def _begin(self, capsule: Any, pool: Any, store: Optional[Store]) -> None:
         self._capsule = capsule
         _flat.keep(self._capsule, (pool and pool._capsule, store and store._capsule))
         self._closed = False
@@ -115,11 +116,21 @@ class World:
         self._user_data: Dict[int, Any] = {}
         self._pair_filter: Optional[Callable[[FilterPair], Any]] = None
         self._recording: Optional[Recording] = None
+        self._is_of_batch = False
 
     @classmethod
     def _of_player(cls, capsule: Any, store: Optional[Store]) -> "World":
         world = cls.__new__(cls)
         world._begin(capsule, None, store)
+        return world
+
+    @classmethod
+    def _of_batch(cls, capsule: Any, batch: Any, source: "World") -> "World":
+        """One of the worlds of a Worlds, which it keeps."""
+        world = cls.__new__(cls)
+        world._begin(capsule, batch, None if source._has_own_store else source._store)
+        world._user_data = dict(source._user_data)
+        world._is_of_batch = True
         return world
 
     def close(self) -> None:
@@ -387,6 +398,8 @@ class World:
         pair_filter=True). step() calls it once for each pair whose bounds begin to meet; it returns whether the two
         may collide. It may not use the world. When it raises, the rest of the step lets all pairs collide; step()
         raises the exception at its end. None: no filter."""
+        if self._is_of_batch:
+            raise UnsupportedError("set_pair_filter: the world is one of a batch, which steps without Python")
         if filter is not None and not callable(filter):
             raise TypeError(f"filter: a callable is needed, not {type(filter).__name__!r}")
         _flat.world_set_pair_filter(self._capsule, None if filter is None else _judge(weakref.ref(self)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import array as arrays
+import weakref
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _flat
@@ -40,7 +41,7 @@ class Worlds:
     """So many worlds, clones of one, which stays the caller's: its bodies and joints name those of each of them. They
     step together, each on one worker, bit for bit as they would alone, whatever the workers."""
 
-    __slots__ = ("_capsule", "_count", "_world", "_pool", "_bound", "results", "__weakref__")
+    __slots__ = ("_capsule", "_count", "_world", "_pool", "_bound", "_views", "results", "__weakref__")
 
     def __init__(
         self,
@@ -62,10 +63,22 @@ class Worlds:
         )
         self._count, self._world, self._pool = count, world, pool
         self._bound: Tuple[List[Any], List[Any]] = ([], [])
+        self._views: "weakref.WeakValueDictionary[int, World]" = weakref.WeakValueDictionary()
         self.results = arrays.array("i", bytes(4 * count))
 
     def __len__(self) -> int:
         return self._count
+
+    def __getitem__(self, index: int) -> World:
+        """One of the worlds, for all calls but close(), record() and set_pair_filter(). It ends with close() of this."""
+        place = index + self._count if index < 0 else index
+        if not 0 <= place < self._count:
+            raise IndexError(f"worlds[{index}]: there are {self._count}")
+        found = self._views.get(place)
+        if found is None:
+            found = World._of_batch(_flat.batch_get_world(self._capsule, place), self, self._world)
+            self._views[place] = found
+        return found
 
     def __repr__(self) -> str:
         return f"<Worlds, {self._count}>"
@@ -74,6 +87,10 @@ class Worlds:
         """Destroys the worlds. What uses them afterwards is a StaleHandleError; arrays stay what they are."""
         _flat.batch_destroy(self._capsule)
         self._bound = ([], [])
+        for view in list(self._views.values()):
+            _flat.batch_end_world(view._capsule)
+            view._closed = True
+        self._views.clear()
 
     def __enter__(self) -> "Worlds":
         return self

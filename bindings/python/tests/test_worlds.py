@@ -8,6 +8,7 @@ import pytest
 
 from feather_physics import (
     Body,
+    FeatherError,
     InvalidArgumentError,
     Joint,
     Pool,
@@ -110,6 +111,48 @@ def test_fields_are_read_and_written(world: World) -> None:
         assert (flat == 1).all()
         far = np.asarray(worlds.read("transform", bodies[:1], np.zeros((COUNT, 1, 7)), origin=(100, 0, 0)))
         assert (far[:, 0, 0] < -90).all()
+
+
+def test_a_world_of_the_batch_takes_all_other_calls(world: World) -> None:
+    bodies = build(world)
+    bodies[0].user_data = "first"
+    with Worlds(world, COUNT) as worlds:
+        one = worlds[2]
+        assert one is worlds[2] and one is worlds[2 - COUNT] and len(list(worlds)) == COUNT
+        mine = next(body for body in one.bodies if body.id == bodies[0].id)
+        assert mine.user_data == "first" and mine.position == bodies[0].position and mine != bodies[0]
+        x, y, z = mine.position
+        mine.position = (x, y + 50, z)
+        assert one.raycast((x, y + 60, z), (0, -20, 0)).body == mine  # type: ignore[union-attr]
+        assert worlds[1].raycast((x, y + 60, z), (0, -20, 0)) is None
+        alone = one.clone()
+        worlds.step(steps=5)
+        for _ in range(5):
+            alone.step()
+        assert one.hash == alone.hash == worlds.hashes()[2] != worlds.hashes()[1]
+        one.step()  # on its own, too
+        assert one.hash != alone.hash
+        one.restore(alone.save())
+        assert one.hash == alone.hash
+        for wrong in (COUNT, -COUNT - 1):
+            with pytest.raises(IndexError):
+                worlds[wrong]
+        for call in (one.close, lambda: one.recorder(), lambda: one.set_pair_filter(lambda pair: True)):
+            with pytest.raises(FeatherError):
+                call()
+        other = worlds[0]
+        del other
+        assert not one.closed
+    assert one.closed
+    with pytest.raises(StaleHandleError):
+        one.step()
+    with pytest.raises(StaleHandleError):
+        mine.position
+    worlds = Worlds(world, 2)
+    kept = worlds[1]
+    del worlds
+    gc.collect()
+    kept.step()  # it keeps the batch
 
 
 def test_worlds_differ_in_mass_and_friction(world: World) -> None:
