@@ -35,20 +35,14 @@
 %ignore fe_world_def::tasks;
 %ignore fe_store_def::allocator;
 
-// Many worlds at once: in C, C# and Python, where the calls of batches are written by hand (python/batch.h).
+// Batches: in Python and Lua their calls are written by hand (python/batch.h, lua/batch.h).
 #if !defined(SWIGCSHARP)
 %rename("$ignore", regexmatch$name="^fe_batch(_[a-z_]+)?$") "";
 %ignore fe_array;
 %ignore fe_array_init;
 #endif
-#if !defined(SWIGPYTHON) && !defined(SWIGCSHARP) && !defined(SWIGLUA)
-%rename("$ignore", regexmatch$name="^fe_state(_(?!type$)[a-z_]+)?$") "";
-%ignore fe_world_clone;
-%ignore fe_world_set_state;
-#endif
-
 #if !defined(SWIGPYTHON) && !defined(SWIGCSHARP)
-// Players: for hosts in C, Python and C#. Lua has recorders, too.
+// Players: in Lua their calls are written by hand (lua/player.h).
 %rename("$ignore", regexmatch$name="^fe_(player|divergence)(_(?!type$)[a-z_]+)?$") "";
 %ignore fe_note;
 #endif

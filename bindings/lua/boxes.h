@@ -15,6 +15,7 @@ typedef struct world_box {
     fe_world *world;     ///< NULL: destroyed
     lua_State *stepping; ///< the Lua thread that is inside world_step, else NULL
     int filter;          ///< index of the pair filter in that thread's stack, see pair_filter.h
+    void *player;        ///< the player_box that the world belongs to, see player.h; NULL: it belongs to this
 } world_box;
 
 typedef struct pool_box {
@@ -61,7 +62,7 @@ static const char store_type[] = "feather.store";
 static int collect_world(lua_State *L)
 {
     world_box *box = luaL_checkudata(L, 1, world_type);
-    if (box->world && fe_world_destroy(box->world) == FE_OK) box->world = NULL;
+    if (box->world && !box->player && fe_world_destroy(box->world) == FE_OK) box->world = NULL;
     return 0;
 }
 

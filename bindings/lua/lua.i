@@ -12,11 +12,13 @@
 #include "lua/errors.h"
 #include "lua/objects.h"
 #include "lua/pair_filter.h"
+#include "lua/player.h"
 #include "lua/values.h"
 %}
 %init %{
     add_types(L);
     add_type(L, batch_type, collect_batch);
+    add_type(L, player_type, collect_player);
     hide_helpers(L, &swig_module);
 %}
 %native(hide_lines) int hide_lines(lua_State *L);
@@ -116,6 +118,17 @@
 %native(batch_read) int batch_read(lua_State *L);
 %native(batch_write) int batch_write(lua_State *L);
 %native(batch_hash) int batch_hash(lua_State *L);
+
+%native(player_create) int player_create(lua_State *L);
+%native(player_destroy) int player_destroy(lua_State *L);
+%native(player_feed) int player_feed(lua_State *L);
+%native(player_step) int player_step(lua_State *L);
+%native(player_seek) int player_seek(lua_State *L);
+%native(player_get_world) int player_get_world(lua_State *L);
+%native(player_release) int player_release(lua_State *L);
+%native(player_get_info) int player_get_info(lua_State *L);
+%native(player_get_notes) int player_get_notes(lua_State *L);
+%native(player_get_divergence) int player_get_divergence(lua_State *L);
 
 %native(recorder_read) int recorder_read(lua_State *L);
 %ignore fe_recorder_read;

@@ -134,6 +134,19 @@ function env.new_clone(pointer, source, def)
     C.fe_world_set_pair_filter(pointer, nil, nil)
     return new_world(pointer, def and def.pool or nil, source.store)
 end
+-- The world of a player: it keeps it, and owns nothing until it is handed over.
+local players = setmetatable({}, { __mode = "k" })
+function env.new_view(pointer, pool, store, player)
+    local box = Box(pointer, pool, store)
+    players[box] = player
+    return box
+end
+function env.own_view(box)
+    use(box.pool)
+    use(box.store)
+    players[box] = nil
+    return ffi.gc(box, end_world)
+end
 function env.new_pool(pointer) return ffi.gc(PoolBox(pointer), end_pool) end
 function env.new_store(pointer) return ffi.gc(StoreBox(pointer), end_store) end
 function env.store_of(pointer, world)
@@ -188,6 +201,7 @@ end
 
 require("feather.ffi_bytes")(core, env)
 require("feather.ffi_batch")(core, env)
+require("feather.ffi_player")(core, env)
 
 -- ---- geometries: the inline functions of the header -----------------------------------------------------------------
 

@@ -4,6 +4,7 @@
 -- kilograms, seconds, radians; rotations are x, y, z, w.
 local core = require("feather.native").core
 local options = require("feather.options")
+local players = require("feather.player")
 local shared = require("feather.store")
 local snapshots = require("feather.snapshot")
 local worlds = require("feather.world")
@@ -24,6 +25,7 @@ return {
     newWorld = worlds.new,
     newPool = shared.new_pool,
     newStore = shared.new_store,
+    newPlayer = players.new,
     loadWorld = snapshots.load,
     checkSnapshot = snapshots.check,
     getSnapshotAssets = snapshots.get_assets,

@@ -6,7 +6,7 @@ local fail = require("feather.where").fail
 local core = native.core
 local objects = {
     World = {}, Body = {}, Shape = {}, Joint = {}, Store = {}, Heightfield = {}, Hull = {}, Mesh = {}, Compound = {},
-    Pool = {}, History = {}, Recorder = {}, Recording = {}, State = {}, Batch = {},
+    Pool = {}, History = {}, Recorder = {}, Recording = {}, State = {}, Batch = {}, Player = {},
 }
 
 for name, class in pairs(objects) do

@@ -171,4 +171,143 @@ function TestRecordings.testWhatIsRefused()
     end
 end
 
+-- ---- players ---------------------------------------------------------------------------------------------------------
+
+TestPlayers = {}
+
+local function recorded(count, given)
+    local world, ball = scene()
+    world:setUserData("level")
+    local recorder, hashes = world:newRecorder(given), {}
+    recorder:note("the ball", ball)
+    for step = 1, count do
+        if step == 30 then ball:applyImpulse(100, 0, 0) end
+        if step == 40 then world:newBody({ position = { 3, 4, 0 } }):newBox(0.5, 0.5, 0.5) end
+        world:update(STEP)
+        hashes[step] = world:getHash()
+    end
+    return recorder:read(), hashes, ball.id
+end
+
+-- Forwards, backwards, from a file and in pieces; and the world is read as any other.
+function TestPlayers.testARecordingIsPlayed()
+    local bytes, hashes, ball = recorded(60)
+    local path = os.tmpname()
+    local file = assert(io.open(path, "wb"))
+    file:write(bytes)
+    file:close()
+    local from_pieces = feather.newPlayer()
+    for at = 1, #bytes, 1000 do from_pieces:feed(bytes:sub(at, at + 999)) end
+    for _, player in ipairs({ feather.newPlayer({ bytes = bytes, workers = 2, simd = "auto" }),
+        feather.newPlayer({ file = path }), from_pieces }) do
+        fails("no world", player.getWorld, player)
+        local step = 0
+        for world in player:steps() do
+            step = step + 1
+            lu.assertEquals(world:getHash(), hashes[step])
+        end
+        lu.assertEquals(step, 60)
+        lu.assertFalse(player:step())
+        lu.assertEquals(#player:getWorld():getBodies(), 3)
+        lu.assertTrue(player:seek(20))
+        lu.assertEquals(player:getWorld():getHash(), hashes[20])
+        lu.assertEquals(#player:getWorld():getBodies(), 2)
+        lu.assertTrue(player:getWorld():rayCast(0, 9, 0, 0, -20, 0) ~= nil)
+        lu.assertFalse(player:seek(99))
+        local info = player:getInfo()
+        lu.assertEquals({ info.step, info.firstStep, info.notes, info.hasDiverged }, { 60, 0, 1, false })
+        lu.assertEquals(player:getNotes(), { { step = 0, about = ball, text = "the ball" } })
+        lu.assertNil(player:getDivergence())
+        fails("player's", player:getWorld().update, player:getWorld(), STEP)
+        fails("player's", player:getWorld().destroy, player:getWorld())
+        local world = player:getWorld()
+        player:close()
+        player:close()
+        lu.assertTrue(world:isDestroyed())
+        fails("destroyed", world.getHash, world)
+        fails("closed", player.step, player)
+    end
+    os.remove(path)
+end
+
+-- It goes on from there, and outlives the player; a seek makes the player another one.
+function TestPlayers.testItsWorldIsHandedOver()
+    local bytes, hashes = recorded(60)
+    local player = feather.newPlayer({ bytes = bytes, pool = feather.newPool(2), store = feather.newStore() })
+    player:seek(50)
+    local clone, world = player:getWorld():clone(), player:release()
+    fails("", player.getWorld, player)
+    for step = 51, 60 do
+        world:update(STEP)
+        clone:update(STEP)
+        lu.assertEquals({ world:getHash(), clone:getHash() }, { hashes[step], hashes[step] })
+    end
+    player:seek(10)
+    lu.assertEquals(player:getWorld():getHash(), hashes[10])
+    player:close()
+    player = nil
+    collectgarbage()
+    collectgarbage()
+    world:update(STEP)
+    world:newBody():newSphere(1)
+    world:destroy()
+    for _ = 1, 30 do -- players that are lost, with and without their worlds
+        local lost = feather.newPlayer({ bytes = bytes })
+        lost:seek(5)
+        world = lost:getWorld()
+    end
+    collectgarbage()
+    collectgarbage()
+    lu.assertEquals(world:getHash(), hashes[5]) -- it keeps its player
+end
+
+-- The first keyframe of one flight, and the steps of another.
+function TestPlayers.testADivergenceIsNamed()
+    local function flight(speed, fine)
+        local world = feather.newWorld({ number = 7 })
+        local body = world:newBody({ linearVelocity = { 0, 0, speed } })
+        body:newSphere(0.5)
+        local recorder = world:newRecorder({ fine = fine })
+        local first = recorder:read()
+        steps(world, 60)
+        return first, recorder:read(), body.id
+    end
+    for _, fine in ipairs({ false, true }) do
+        local first, _, body = flight(1, fine)
+        local player = feather.newPlayer({ bytes = first })
+        player:feed((select(2, flight(2, fine))))
+        fails("1", player.step, player)
+        local found = player:getDivergence()
+        lu.assertEquals({ found.type, found.step, player:getInfo().hasDiverged }, { "step", 1, true })
+        lu.assertEquals({ found.body, found.component }, fine and { body, 2 } or { 0, -1 })
+        if fine then lu.assertStrContains(found.field, "velocity") end
+        while player:step() do end -- once
+        lu.assertEquals(player:getDivergence(), found)
+        lu.assertEquals(player:getInfo().step, 60)
+    end
+    local bytes = recorded(5)
+    local broken = bytes:sub(1, 200) .. string.char((bytes:byte(201) + 1) % 256) .. bytes:sub(202)
+    fails("", function()
+        local player = feather.newPlayer({ bytes = broken })
+        while player:step() do end
+    end)
+end
+
+function TestPlayers.testWrongArgumentsAreNamed()
+    fails("worker_count", feather.newPlayer, { workers = 100 })
+    fails("simd", feather.newPlayer, { simd = "wide" })
+    fails("newPool", feather.newPlayer, { pool = 5 })
+    fails("newStore", feather.newPlayer, { store = {} })
+    fails("speed", feather.newPlayer, { speed = 5 })
+    fails("path", feather.newPlayer, { file = 5 })
+    fails("no/such", feather.newPlayer, { file = "no/such" })
+    fails("string", feather.newPlayer, { bytes = 5 })
+    fails("", feather.newPlayer, { bytes = ("this is no recording"):rep(100) })
+    local player = feather.newPlayer()
+    lu.assertFalse(player:step())
+    fails("step", player.seek, player, "x")
+    fails("step", player.seek, player, 0.5)
+    fails("player", core.player_step, scene().native)
+end
+
 os.exit(lu.LuaUnit.run(), true)
