@@ -130,7 +130,7 @@ static void read_contact_force(const fe_world *w, int32_t body, const fe__field_
     fe_vec3 sum = fe__vec3(0.0f, 0.0f, 0.0f);
     for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
         const fe__pair *p = w->pairs + pair;
-        if (p->flags & FE__PAIR_SENSOR || !w->contacts[pair].point_count || !(w->last_h > 0.0f)) continue;
+        if (p->flags & FE__PAIR_SENSOR || (int32_t)w->contacts[pair].point_count == 0 || !(w->last_h > 0.0f)) continue;
         // The solver's B, whom its impulses push, is A where the pair is flipped
         int32_t pushed = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
         fe_vec3 force = force_of_contact(w, pair);
