@@ -8,8 +8,8 @@
 #   make test-state what of that is about snapshots: 1000 random moments of 100 random scenes, 90 000 altered snapshots
 #   make test-many  what of that is about many worlds: 1000 batches beside loops, 1 000 000 resets
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
-#   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets,
-#                   with clang's libFuzzer and sanitizers
+#   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets and
+#                   STATE_SECONDS=120 of broken snapshots, with clang's libFuzzer and sanitizers
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
@@ -235,10 +235,11 @@ test-many:
 	@+tests/long '^many/'
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
-# What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz, or -cooked, again.
+# What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz, -cooked or -state, again.
 
 FUZZ_SECONDS ?= 600
 COOKED_SECONDS ?= 120
+STATE_SECONDS ?= 120
 FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_pairs.o support/fuzz_terrain.o)
 
 $(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
@@ -246,13 +247,17 @@ $(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
 COOKED_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_cooked.o support/cooked.o)
 $(BUILD)/feather-fuzz-cooked: $(COOKED_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(COOKED_OBJECTS) $(STATIC) -fsanitize=fuzzer $(LINK_FLAGS) -lm -o $@
+STATE_OBJECTS := $(BUILD)/tests/fuzz/fuzz_state.o $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/support/play*.c)))
+$(BUILD)/feather-fuzz-state: $(STATE_OBJECTS) $(STATIC)
+	$(RUN)$(CC) $(STATE_OBJECTS) $(STATIC) -fsanitize=fuzzer $(LINK_FLAGS) -lcmocka -lm -o $@
 fuzz:
 	@tools/deps.sh fuzz
 	@+$(MAKE) --no-print-directory $(PARALLEL) CC=clang BUILD=$(BUILD)/fuzz OPT=-O1 SIMD_OPT=-O1 SANITIZE=address,undefined \
-	    CFLAGS='$(CFLAGS) -fsanitize=fuzzer-no-link' $(BUILD)/fuzz/feather-fuzz $(BUILD)/fuzz/feather-fuzz-cooked
-	@mkdir -p $(BUILD)/fuzz/corpus $(BUILD)/fuzz/corpus-cooked
+	    CFLAGS='$(CFLAGS) -fsanitize=fuzzer-no-link' $(BUILD)/fuzz/feather-fuzz $(BUILD)/fuzz/feather-fuzz-cooked $(BUILD)/fuzz/feather-fuzz-state
+	@mkdir -p $(BUILD)/fuzz/corpus $(BUILD)/fuzz/corpus-cooked $(BUILD)/fuzz/corpus-state
 	cd $(BUILD)/fuzz && ./feather-fuzz -max_total_time=$(FUZZ_SECONDS) -max_len=1500 -timeout=30 corpus
 	cd $(BUILD)/fuzz && ./feather-fuzz-cooked -max_total_time=$(COOKED_SECONDS) -max_len=600 -len_control=0 -timeout=30 corpus-cooked
+	cd $(BUILD)/fuzz && ./feather-fuzz-state -max_total_time=$(STATE_SECONDS) -max_len=129 -len_control=0 -timeout=30 corpus-state
 
 # ---- bench ----------------------------------------------------------------------------------------------------------------------
 
