@@ -366,8 +366,9 @@ def _make_ball(
     if not joint.damping and not joint.stiffness:
         cone = {} if joint.cone is None else {"cone_enabled": 1, "cone_y": joint.cone, "cone_z": joint.cone}
         return world.create_ball_joint(a, b, place, axis, **cone, **friction)
-    limits = None if joint.cone is None else joint.cone
-    one = SceneFreedom("", "", limits and -limits, limits, joint.damping, joint.friction, joint.stiffness)
+    one = SceneFreedom(
+        "", "", None if joint.cone is None else -joint.cone, joint.cone, joint.damping, joint.friction, joint.stiffness
+    )
     about = {name: _axis(one) for name in AXES if name.startswith("angular")}
     return world.create_configurable_joint(a, b, place, axis, **about)
 
