@@ -22,6 +22,19 @@ static inline bytes save(const fe_world *world)
     return b;
 }
 
+// With the contents of its assets. No data where one of them is gone: the last user of a destroyed one takes it along
+static inline bytes save_with_assets(const fe_world *world)
+{
+    fe_save_options options;
+    fe_save_options_init(&options, sizeof options);
+    options.flags = FE_SAVE_ASSETS;
+    bytes b = {NULL, fe_world_save(world, &options, NULL, 0)};
+    if (b.size < 0) return b;
+    b.data = malloc((size_t)b.size);
+    FE_TRUE(b.data && fe_world_save(world, &options, b.data, b.size) == b.size);
+    return b;
+}
+
 // ---- right sums, by code of its own ---------------------------------------------------------------------------------
 static inline uint64_t take(const unsigned char *at, int32_t size)
 {

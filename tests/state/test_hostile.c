@@ -7,17 +7,11 @@
 
 enum { NUMBER = 7 };
 
-// With the contents of its assets, where it may be: the last user of a destroyed one takes it along
+// With the contents of its assets, where it may be
 static bytes save_whole(const fe_world *world)
 {
-    fe_save_options options;
-    fe_save_options_init(&options, sizeof options);
-    options.flags = FE_SAVE_ASSETS;
-    bytes b = {NULL, fe_world_save(world, &options, NULL, 0)};
-    if (b.size < 0) return save(world);
-    b.data = malloc((size_t)b.size);
-    FE_TRUE(b.data && fe_world_save(world, &options, b.data, b.size) == b.size);
-    return b;
+    bytes b = save_with_assets(world);
+    return b.data ? b : save(world);
 }
 
 static fe_world *new_world(void)
