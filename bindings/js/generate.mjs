@@ -20,8 +20,8 @@ fe_player_seek fe_player_get_world fe_player_release fe_player_get_info fe_playe
 fe_player_destroy fe_snapshot_compare
 fe_version fe_last_error fe_result_name`.split(/\s+/);
 export const LEFT_OUT = {
-    fe_pool_create: 'the module has one thread', fe_pool_destroy: 'the module has one thread',
-    fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'the module has one thread',
+    fe_pool_create: 'feather-physics/threads has one for all worlds', fe_pool_destroy: 'feather-physics/threads has one for all worlds',
+    fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'workers have no callbacks of the page',
     fe_world_clone: 'many worlds at once are for hosts in C',
     fe_state_create: 'many worlds at once are for hosts in C',
     fe_state_destroy: 'many worlds at once are for hosts in C',
@@ -461,7 +461,7 @@ import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, ui
 const i64of = (a) => BigInt.asIntN(64, u64[a >> 3]);
 export const made = {};
 export const HIT_BYTES = ${records.fe_hit.size}, VERTEX_BYTES = ${records.fe_draw_vertex.size}, INSTANCE_BYTES = ${records.fe_draw_instance.size};
-export const AT = { store: ${offsetOf('fe_world_def', 'store')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, saveBase: [${offsetOf('fe_save_options', 'base')}, ${offsetOf('fe_save_options', 'base_size')}], restoreBase: [${offsetOf('fe_restore_options', 'base')}, ${offsetOf('fe_restore_options', 'base_size')}], playerStore: ${offsetOf('fe_player_def', 'store')} };
+export const AT = { store: ${offsetOf('fe_world_def', 'store')}, pool: ${offsetOf('fe_world_def', 'pool')}, playerPool: ${offsetOf('fe_player_def', 'pool')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, saveBase: [${offsetOf('fe_save_options', 'base')}, ${offsetOf('fe_save_options', 'base_size')}], restoreBase: [${offsetOf('fe_restore_options', 'base')}, ${offsetOf('fe_restore_options', 'base_size')}], playerStore: ${offsetOf('fe_player_def', 'store')} };
 export const NOTE_BYTES = ${records.fe_note.size};
 export const HitLayout = { ${hitLayout.join(', ')} };
 ${constants.join('\n')}
@@ -486,5 +486,5 @@ ${interfaces}${classesTs}`;
 const folder = process.argv[3];
 writeFileSync(`${folder}/api.js`, js);
 writeFileSync(`${folder}/api.d.ts`, ts);
-const exported = [...functions.map((f) => f.name).filter((n) => !LEFT_OUT[n]), 'malloc', 'free'];
+const exported = [...functions.map((f) => f.name).filter((n) => !LEFT_OUT[n]), 'fe_pool_create', 'malloc', 'free'];
 writeFileSync(process.argv[4], exported.map((n) => `-Wl,--export=${n}\n`).join(''));

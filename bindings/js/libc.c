@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #define HOST(name) __attribute__((import_module("host"), import_name(name)))
 HOST("clock") double host_clock(void); // ms, since any moment
@@ -31,6 +32,21 @@ char *getenv(const char *name)
 {
     (void)name;
     return NULL;
+}
+
+// How often the memory grew, exported by its address: the host then renews its views. A shared memory that grew leaves
+// them as they were, and too short.
+_Atomic uint32_t memory_growths = 0;
+
+// Called by malloc, always with whole pages. Nobody reads errno.
+void *sbrk(intptr_t increment)
+{
+    enum { PAGE = 65536 };
+    if (increment == 0) return (void *)(__builtin_wasm_memory_size(0) * PAGE);
+    size_t pages = increment > 0 ? __builtin_wasm_memory_grow(0, (size_t)increment / PAGE) : SIZE_MAX;
+    if (pages == SIZE_MAX) return (void *)-1;
+    ++memory_growths;
+    return (void *)(pages * PAGE);
 }
 
 int sched_yield(void) { return 0; }

@@ -1,5 +1,6 @@
 # make wasm: build/wasm/feather.wasm, the library as a module that asks its host for a clock and for numbers as text, and
-# for nothing else. make js: build/js, the package feather-physics around it. make test-js: its tests.
+# for nothing else; build/wasm/feather-threads.wasm, the same on a memory that threads of the host share. make js:
+# build/js, the package feather-physics around both. make test-js: its tests.
 
 WASM_CC ?= clang --target=wasm32-wasi --sysroot=/usr
 WASM_AR ?= llvm-ar
@@ -10,15 +11,23 @@ WASM_OPT ?= -Os
 WASM_SIMD_OPT ?= -O2
 WASM_COLD_OPT ?= -Oz
 # A step takes up to 22 KB of stack, a query on a sweep through a mesh less; below it the module traps, it does not overwrite.
-WASM_LINK := -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--stack-first,-z,stack-size=262144
+WASM_FEATURES :=
+WASM_LINK := -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--stack-first,-z,stack-size=262144,--export=memory_growths
+# Debian's wasi-libc knows no atomics: the linker is told that it may do without. What of it the library calls keeps
+# nothing between calls, but malloc: workers do not call it. Bytes of memory: as thread.js and threads.js have them.
+WASM_SHARED := -matomics -mbulk-memory -ftls-model=local-exec
+WASM_SHARED_LINK := -Wl,--import-memory,--shared-memory,--initial-memory=4194304,--max-memory=1073741824,--no-check-features \
+    -Wl,--export=__stack_pointer,--export=__wasm_init_tls
 JS_SOURCES := $(wildcard bindings/js/src/*)
 
 .PHONY: wasm js test-js FORCE
-wasm: $(BUILD)/wasm/feather.wasm
-js: $(patsubst bindings/js/src/%,$(BUILD)/js/%,$(JS_SOURCES)) $(addprefix $(BUILD)/js/,api.js feather.wasm inline.js package.json README.md LICENSE)
+.PRECIOUS: $(BUILD)/wasm/%/libfeather.a
+wasm: $(BUILD)/wasm/feather.wasm $(BUILD)/wasm/feather-threads.wasm
+js: $(patsubst bindings/js/src/%,$(BUILD)/js/%,$(JS_SOURCES)) $(addprefix $(BUILD)/js/,api.js feather.wasm feather-threads.wasm inline.js package.json README.md LICENSE)
 
-$(BUILD)/wasm/library/libfeather.a: FORCE
-	@+$(MAKE) --no-print-directory BUILD=$(BUILD)/wasm/library SIMD_SETS=wasm CC='$(WASM_CC)' AR=$(WASM_AR) OPT='$(WASM_OPT)' \
+$(BUILD)/wasm/shared/libfeather.a: WASM_FEATURES := $(WASM_SHARED)
+$(BUILD)/wasm/%/libfeather.a: FORCE
+	@+$(MAKE) --no-print-directory BUILD=$(@D) SIMD_SETS=wasm CC='$(WASM_CC) $(WASM_FEATURES)' AR=$(WASM_AR) OPT='$(WASM_OPT)' \
 	    SIMD_OPT='$(WASM_SIMD_OPT)' COLD_OPT='$(WASM_COLD_OPT)' \
 	    CFLAGS= LDFLAGS= BENCH_PEERS= $@
 $(BUILD)/js/api.js: bindings/js/generate.mjs include/feather.h
@@ -29,13 +38,19 @@ $(BUILD)/js/api.d.ts $(BUILD)/wasm/exports: $(BUILD)/js/api.js
 $(BUILD)/wasm/libc.o: bindings/js/libc.c
 	@mkdir -p $(@D)
 	$(RUN)$(WASM_CC) -std=gnu11 -Os -Wall -Wextra -c $< -o $@
+$(BUILD)/wasm/libc-shared.o: bindings/js/libc.c
+	@mkdir -p $(@D)
+	$(RUN)$(WASM_CC) $(WASM_SHARED) -std=gnu11 -Os -Wall -Wextra -c $< -o $@
+$(BUILD)/wasm/feather-threads.wasm: $(BUILD)/wasm/libc-shared.o $(BUILD)/wasm/shared/libfeather.a $(BUILD)/wasm/exports
+	$(RUN)$(WASM_CC) $(WASM_LINK) $(WASM_SHARED_LINK) @$(BUILD)/wasm/exports $(BUILD)/wasm/libc-shared.o \
+	    $(BUILD)/wasm/shared/libfeather.a -lm -o $@
 $(BUILD)/wasm/feather.wasm: $(BUILD)/wasm/libc.o $(BUILD)/wasm/library/libfeather.a $(BUILD)/wasm/exports
 	$(RUN)$(WASM_CC) $(WASM_LINK) @$(BUILD)/wasm/exports $(BUILD)/wasm/libc.o $(BUILD)/wasm/library/libfeather.a -lm -o $@
 
 $(BUILD)/js/%: bindings/js/src/%
 	@mkdir -p $(@D)
 	@cp $< $@
-$(BUILD)/js/feather.wasm: $(BUILD)/wasm/feather.wasm
+$(BUILD)/js/%.wasm: $(BUILD)/wasm/%.wasm
 	@mkdir -p $(@D)
 	@cp $< $@
 $(BUILD)/js/inline.js: bindings/js/inline.mjs $(BUILD)/wasm/feather.wasm

@@ -10,6 +10,16 @@
     {                    \
         0                \
     }
+#elif defined(__wasm_atomics__) && !defined(_REENTRANT)
+// WebAssembly with shared memory and a C library without threads
+#define FE_HAS_THREADS 1
+#define FE_HOST_THREADS 1
+#include <stdatomic.h>
+#include <stdint.h>
+#define FE_MUTEX_INITIAL \
+    {                    \
+        0                \
+    }
 #elif !defined(__wasm__) || defined(_REENTRANT)
 #define FE_HAS_THREADS 1
 #include <pthread.h>
@@ -28,6 +38,8 @@
 typedef struct fe__mutex {
 #if defined(_WIN32)
     void *handle; // an SRWLOCK, whose header would bring its macros everywhere
+#elif defined(FE_HOST_THREADS)
+    _Atomic uint32_t locked; // 0 or 1
 #elif FE_HAS_THREADS
     pthread_mutex_t handle;
 #else

@@ -1,7 +1,8 @@
 // os_thread.h - what Feather asks of the operating system's threads: to start and to be joined, to sleep on a word, to
 // say when they end, and how many cores they may have.
 //
-// One file for each kind of system: os_thread_posix.c, os_thread_windows.c, and os_thread_none.c where there are none.
+// One file for each kind of system: os_thread_posix.c, os_thread_windows.c, os_thread_wasm.c for a WebAssembly module
+// whose host gives it threads, and os_thread_none.c where there are none.
 #ifndef FE_CORE_OS_THREAD_H
 #define FE_CORE_OS_THREAD_H
 #include "core/mutex.h"
@@ -11,7 +12,7 @@
 
 // Stays where it is from its start to its join.
 typedef struct fe__os_thread {
-#if FE_HAS_THREADS && !defined(_WIN32)
+#if FE_HAS_THREADS && !defined(_WIN32) && !defined(FE_HOST_THREADS)
     pthread_t handle;
 #else
     void *handle;
@@ -20,8 +21,8 @@ typedef struct fe__os_thread {
     void *argument;
 } fe__os_thread;
 
-// Linux and Windows sleep on a word by its address. Elsewhere one condition stands for all words of a place.
-#if FE_HAS_THREADS && !defined(__linux__) && !defined(_WIN32)
+// Linux, Windows and WebAssembly sleep on a word by its address. Elsewhere one condition stands for all words of a place.
+#if FE_HAS_THREADS && !defined(__linux__) && !defined(_WIN32) && !defined(FE_HOST_THREADS)
 #define FE_SLEEPS_BY_CONDITION 1
 #else
 #define FE_SLEEPS_BY_CONDITION 0
@@ -44,6 +45,8 @@ void fe__os_thread_join(fe__os_thread *thread);
 void fe__os_yield(void);
 // That this process may use, at least 1
 int32_t fe__os_core_count(void);
+// So many threads can be started now, as far as the system tells
+int32_t fe__os_thread_limit(void);
 
 void fe__sleep_place_init(fe__sleep_place *place);
 void fe__sleep_place_free(fe__sleep_place *place);

@@ -11,6 +11,7 @@ int fe__os_thread_start(fe__os_thread *thread, void (*work)(void *argument), voi
 void fe__os_thread_join(fe__os_thread *thread) { (void)thread; }
 void fe__os_yield(void) {}
 int32_t fe__os_core_count(void) { return 1; }
+int32_t fe__os_thread_limit(void) { return 0; }
 
 void fe__sleep_place_init(fe__sleep_place *place) { (void)place; }
 void fe__sleep_place_free(fe__sleep_place *place) { (void)place; }

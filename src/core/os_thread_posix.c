@@ -4,7 +4,7 @@
 #endif
 #include "core/os_thread.h"
 
-#if FE_HAS_THREADS && !defined(_WIN32)
+#if FE_HAS_THREADS && !defined(_WIN32) && !defined(FE_HOST_THREADS)
 #include <sched.h>
 #include <signal.h>
 #include <unistd.h>
@@ -65,6 +65,8 @@ int32_t fe__os_core_count(void)
     long count = sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : (int32_t)count;
 }
+
+int32_t fe__os_thread_limit(void) { return INT32_MAX; }
 
 // ---- sleep ---------------------------------------------------------------------------------------------------------
 

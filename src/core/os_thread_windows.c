@@ -44,6 +44,8 @@ int32_t fe__os_core_count(void)
     return count < 1 ? 1 : count;
 }
 
+int32_t fe__os_thread_limit(void) { return INT32_MAX; }
+
 // ---- sleep ---------------------------------------------------------------------------------------------------------
 
 void fe__sleep_place_init(fe__sleep_place *place) { (void)place; }

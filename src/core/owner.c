@@ -60,7 +60,7 @@ static void forget_others(void)
     }
 }
 
-#if FE_HAS_THREADS // what has none is no library that is unloaded
+#if !defined(__wasm__) // a module is never unloaded
 // No thread that outlives the library calls into memory that is gone.
 __attribute__((destructor)) static void end(void)
 {

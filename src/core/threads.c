@@ -48,7 +48,7 @@ struct fe_pool {
 
     fe__memory memory;
     int32_t worker_count;
-    int32_t thread_count; // worker_count - 1, or 0 where there are no threads
+    int32_t thread_count; // worker_count - 1, or as many as the system has
     int32_t started;      // of these; fewer only while the pool is created
     _Atomic int32_t core_count;
     fe__entry entry; // in the registry, which counts the worlds
@@ -309,7 +309,8 @@ static void join_threads(fe_pool *pool)
 
 static int start_threads(fe_pool *pool)
 {
-    pool->thread_count = FE_HAS_THREADS ? pool->worker_count - 1 : 0;
+    int32_t limit = fe__os_thread_limit();
+    pool->thread_count = pool->worker_count - 1 < limit ? pool->worker_count - 1 : limit;
     atomic_store(&pool->core_count, fe__os_core_count());
     fe__sleep_place_init(&pool->place);
     while (pool->started < pool->thread_count) {

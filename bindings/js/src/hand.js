@@ -1,5 +1,5 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
-import { x, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, dead, free, dispose, FeatherError } from './runtime.js';
+import { x, pool, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, dead, free, dispose, FeatherError } from './runtime.js';
 import { Recorder } from './recorder.js';
 import * as api from './api.js';
 const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $difference } = api;
@@ -32,8 +32,8 @@ class Area {
 class View {
     constructor(type) { this.type = type, this.view = new type(0), this.at = -1; }
     get(at, length) {
-        if (this.at !== at || this.view.length !== length || this.view.buffer !== x.memory.buffer) {
-            this.view = new this.type(x.memory.buffer, at, length), this.at = at;
+        if (this.at !== at || this.view.length !== length || this.view.buffer !== f32.buffer) {
+            this.view = new this.type(f32.buffer, at, length), this.at = at;
         }
         return this.view;
     }
@@ -70,7 +70,7 @@ export class Heightfield extends Asset {
         const n = int(rows, 'rows') * int(columns, 'columns');
         const at = temp(n > 0 && n <= 2 ** 28 ? 4 * n : 4);
         ok(x.fe_heightfield_get_heights(this._s(), this._h, int(row, 'row'), int(column, 'column'), rows, columns, at));
-        return new Float32Array(x.memory.buffer, at, n).slice();
+        return new Float32Array(f32.buffer, at, n).slice();
     }
 }
 export class Mesh extends Asset {
@@ -267,9 +267,10 @@ export class History {
 // ---- worlds ---------------------------------------------------------------------------------------------------------
 
 const worldDef = (at, options) => {
-    if (options === undefined || options === null) return 0;
-    const { store, ...rest } = options;
+    if ((options === undefined || options === null) && !pool) return 0;
+    const { store, ...rest } = options ?? {};
     make($world_def, at, rest, 'options');
+    u32[(at + api.AT.pool) >> 2] = pool;
     if (store !== undefined) u32[(at + api.AT.store) >> 2] = store instanceof Store ? store._s() : wrong('options.store', 'a Store', store);
     return at;
 };

@@ -1,5 +1,5 @@
 // player.js - a world that does what a recording says.
-import { x, u32, scratch, ok, reset, init, make, bytesIn, listOut, long, wrong, dead, free, dispose } from './runtime.js';
+import { x, pool, u32, scratch, ok, reset, init, make, bytesIn, listOut, long, wrong, dead, free, dispose } from './runtime.js';
 import { World, Store, endOrphans } from './hand.js';
 import { $player_def, $player_info, $divergence, AT, NOTE_BYTES, readPlayerInfo, readDivergence, readNote } from './api.js';
 
@@ -10,6 +10,7 @@ export class Player {
     constructor(recording, options) {
         reset();
         const { store, ...rest } = options ?? {}, def = make($player_def, scratch + 16, rest, 'options');
+        u32[(def + AT.playerPool) >> 2] = pool;
         if (store !== undefined) u32[(def + AT.playerStore) >> 2] = store instanceof Store ? store._s() : wrong('options.store', 'a Store', store);
         ok(x.fe_player_create(def, scratch));
         const p = this._p = u32[scratch >> 2];

@@ -1,9 +1,12 @@
 // runtime.js - the module's memory, and how numbers, vectors, records and errors cross into it.
 //
-// One instance a thread. Views on the memory are renewed after each call that made it grow: `ok` and `count`, through
+// One instance a thread of the program. Views on the memory are renewed after each call that made it grow: `ok` and `count`, through
 // one of which every call goes, see to that.
 
+import { host, textOf } from './host.js';
+
 export let x; // the exports: functions of feather.h, malloc, free
+let memory; // the module's own, or one that threads share
 export let f32, f64, i32, u32, u64, u8;
 export let scratch; // SCRATCH bytes for the small arguments of one call
 const SCRATCH = 2048;
@@ -18,42 +21,20 @@ export class FeatherError extends Error {
     }
 }
 
+// Memory that grew: views on it are empty, or, where it is shared, too short. The module counts, see libc.c.
+let growthsAt = 0, growths = 0;
+const isFresh = () => u32[growthsAt] === growths;
 function renew() {
-    const b = x.memory.buffer;
+    const b = memory.buffer;
     f32 = new Float32Array(b), f64 = new Float64Array(b), i32 = new Int32Array(b), u32 = new Uint32Array(b);
     u64 = new BigUint64Array(b), u8 = new Uint8Array(b);
+    growths = u32[growthsAt];
 }
 
-const decoder = new TextDecoder();
-export function text(at) {
-    let end = at;
-    while (u8[end]) ++end;
-    return decoder.decode(u8.slice(at, end));
-}
+export const text = (at) => textOf(u8, at);
 
-// printf's %.*g and %.*f: error sentences are the same in every language
-function format(value, digits, fixed) {
-    if (!Number.isFinite(value)) return value !== value ? 'nan' : value < 0 ? '-inf' : 'inf';
-    if (fixed) return value.toFixed(digits);
-    const [mantissa, power] = value.toExponential(Math.max(digits, 1) - 1).split('e');
-    const short = (s) => (s.includes('.') ? s.replace(/\.?0+$/, '') : s);
-    const e = Number(power), sign = Object.is(value, -0) ? '-' : '';
-    if (e >= -4 && e < digits) return sign + short(value.toFixed(digits - 1 - e < 100 ? digits - 1 - e : 100));
-    return sign + short(mantissa) + 'e' + (e < 0 ? '-' : '+') + String(Math.abs(e)).padStart(2, '0');
-}
-
-const imports = {
-    host: {
-        clock: () => performance.now(),
-        read: (at) => Number(text(at)),
-        write: (value, digits, fixed, out) => {
-            if (!u8.length) renew();
-            const s = format(value, digits, fixed).slice(0, 31);
-            for (let i = 0; i < s.length; ++i) u8[out + i] = s.charCodeAt(i);
-            return s.length;
-        },
-    },
-};
+const fresh = () => (isFresh() || renew(), u8);
+const imports = { host: host(fresh) };
 export function start(source) {
     if (!x) begin(new WebAssembly.Instance(source instanceof WebAssembly.Module ? source : new WebAssembly.Module(source), imports));
 }
@@ -69,19 +50,34 @@ export async function startAsync(source) {
     const made = await WebAssembly.instantiate(isResponse ? await source.arrayBuffer() : source, imports);
     begin(made.instance || made);
 }
-function begin(instance) {
+export async function startShared(module, shared) {
+    if (x) throw new Error('the module of one thread has started');
+    const { exports } = await WebAssembly.instantiate(module, { env: { memory: shared }, ...imports });
+    begin({ exports }, shared);
+    return x;
+}
+function begin(instance, shared) {
     if (x) return;
     x = instance.exports;
+    memory = shared ?? x.memory;
+    growthsAt = x.memory_growths.value >> 2;
     renew();
     scratch = x.malloc(SCRATCH);
     grow(1 << 14);
     renew();
 }
 
+// What worlds are stepped by, 0: by who calls
+export let pool = 0;
+export function usePool(threads) {
+    ok(x.fe_pool_create(threads, scratch));
+    pool = u32[scratch >> 2];
+}
+
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
 export function ok(result) {
-    if (f32.length === 0) renew();
+    if (!isFresh()) renew();
     if (result < 0) {
         throw new FeatherError(text(x.fe_result_name(result)), text(x.fe_last_error()));
     }
@@ -104,7 +100,7 @@ const MOST = 2 ** 31; // bytes of an array; beyond 2^32 the module would take a 
 export function allocate(bytes) {
     const made = bytes < MOST ? x.malloc(bytes) : 0;
     if (!made) throw new FeatherError('FE_ERROR_MEMORY', `no memory for an array of ${bytes} bytes`);
-    if (f32.length === 0) renew();
+    if (!isFresh()) renew();
     return made;
 }
 function grow(bytes) {
@@ -287,7 +283,7 @@ export function listIn(kind, v, name) {
     }
     const at = temp(BYTES[kind] * n);
     if (kind === 'f') {
-        const view = new Float32Array(x.memory.buffer, at, n);
+        const view = new Float32Array(f32.buffer, at, n);
         for (let k = 0; k < n; ++k) view[k] = num(v[k], `${name}[${k}]`);
     } else if (kind === 'h') {
         for (let k = 0; k < n; ++k) u64[(at >> 3) + k] = handle(v[k], `${name}[${k}]`);
