@@ -21,7 +21,8 @@ typedef struct fe__os_thread {
     void *argument;
 } fe__os_thread;
 
-// Linux, Windows and WebAssembly sleep on a word by its address. Elsewhere one condition stands for all words of a place.
+// Linux, Windows and WebAssembly sleep on a word by its address. Elsewhere one condition stands for all words of a
+// place.
 #if FE_HAS_THREADS && !defined(__linux__) && !defined(_WIN32) && !defined(FE_HOST_THREADS)
 #define FE_SLEEPS_BY_CONDITION 1
 #else

@@ -2,8 +2,8 @@
 //
 // Each of the host's threads has an instance of the module on the same memory. It takes a seat (thread_seat), sets the
 // stack and the thread's own storage that the seat names, and calls thread_arrive, then thread_serve, which does not
-// return: it sleeps on the seat until a thread is started there, does its work, and sleeps again. So all of a thread's life is here, and the
-// host is asked for nothing while a world steps.
+// return: it sleeps on the seat until a thread is started there, does its work, and sleeps again. So all of a thread's
+// life is here, and the host is asked for nothing while a world steps.
 #include "core/os_thread.h"
 
 #if defined(FE_HOST_THREADS)

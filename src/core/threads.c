@@ -13,6 +13,7 @@
 #include "core/memory.h"
 #include "core/os_thread.h"
 #include "core/registry.h"
+#include "core/shares.h"
 
 enum {
     SLOTS = 32,           // bits of fe_pool.open
@@ -43,6 +44,7 @@ struct fe_pool {
     _Alignas(FE_CACHE_LINE) _Atomic uint32_t taken;   // bit s: slot s belongs to a caller
     _Alignas(FE_CACHE_LINE) _Atomic int32_t spinning; // workers
     _Atomic int32_t sleeping; // workers that nobody has called; a call takes them off before they are awake
+    _Atomic int32_t numbers;  // of threads, given away
     _Atomic uint32_t calls;   // calls not yet taken by a sleeper, what they sleep on
     run_slot slots[SLOTS];
 
@@ -57,6 +59,7 @@ struct fe_pool {
 };
 
 static _Thread_local int inside_task;
+static _Thread_local int32_t thread_number;
 static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
 // ---- pausing, yielding -----------------------------------------------------------------------------------
@@ -222,6 +225,7 @@ static void work(void *argument)
 {
     fe_pool *pool = argument;
     int32_t last = SLOTS - 1;
+    thread_number = atomic_fetch_add(&pool->numbers, 1) + 1;
     while (!atomic_load(&pool->stopping)) {
         uint32_t open = atomic_load_explicit(&pool->open, memory_order_acquire);
         if (open == 0) {
@@ -355,6 +359,7 @@ fe_result fe__pool_try_destroy(fe_pool *pool, int32_t *out_users)
     return result;
 }
 
+int32_t fe__thread_number(void) { return thread_number; }
 int32_t fe__pool_worker_count(const fe_pool *pool) { return pool->worker_count; }
 int32_t fe__pool_lives(const fe_pool *pool) { return fe__registry_has(&pools, &pool->entry); }
 fe_result fe__pool_retain(fe_pool *pool) { return fe__registry_retain(&pools, &pool->entry); }
@@ -415,21 +420,23 @@ void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t c
 }
 
 typedef struct range_run {
-    _Alignas(FE_CACHE_LINE) _Atomic int32_t next_block; // alone on its line: every claim writes it
-    _Alignas(FE_CACHE_LINE) fe__range_task task;
+    fe__range_task task;
     void *argument;
     int32_t count, block, block_count;
+    fe__shares shares;
 } range_run;
 
-static void claim_blocks(void *argument, int32_t worker)
+static void claim_blocks(void *argument, int32_t index)
 {
+    enum { ONLY_PASS = 1 };
     range_run *run = argument;
-    for (;;) {
-        int32_t block = atomic_fetch_add_explicit(&run->next_block, 1, memory_order_relaxed);
-        if (block >= run->block_count) return;
+    fe__claims claims = fe__claims_of(fe__shares_join(&run->shares));
+    (void)index;
+    int32_t all = run->shares.count;
+    for (int32_t block; (block = fe__shares_claim(&run->shares, &claims, all, ONLY_PASS, run->block_count)) >= 0;) {
         int32_t first = block * run->block;
         int32_t rest = run->count - first;
-        run->task(run->argument, first, first + (rest < run->block ? rest : run->block), worker);
+        run->task(run->argument, first, first + (rest < run->block ? rest : run->block), claims.worker);
     }
 }
 
@@ -441,6 +448,13 @@ void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, 
         return;
     }
     int32_t block_count = count / block + (count % block != 0);
-    range_run run = {.task = task, .argument = argument, .count = count, .block = block, .block_count = block_count};
-    fe__run(workers, claim_blocks, &run, workers->count < block_count ? workers->count : block_count);
+    int32_t called = workers->count < block_count ? workers->count : block_count;
+    range_run run; // 4 KB that are not to be cleared
+    run.task = task;
+    run.argument = argument;
+    run.count = count;
+    run.block = block;
+    run.block_count = block_count;
+    fe__shares_begin(&run.shares, called);
+    fe__run(workers, claim_blocks, &run, called);
 }

@@ -1,11 +1,12 @@
 // solve.c - runs the substeps: a program of passes for each batch.
 //
 // A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all
-// workers together: they walk the same program, claim blocks of each pass, and go on when the last block of a pass is
-// done. Both walk the same passes over the same groups in the same order of colours, so that who executes a batch never
-// shows.
+// workers together: they walk the same program, claim blocks of each pass, their own first, and go on when the last
+// block of a pass is done. Both walk the same passes over the same groups in the same order of colours, so that who
+// executes a batch never shows.
 #include "solver/solve.h"
 
+#include "core/shares.h"
 #include "solver/pace.h"
 #include "solver/pass_on.h"
 #include "solver/tree/tree.h"
@@ -63,8 +64,8 @@ typedef struct job {
     paced paces[FE__PACES];
     const fe__batch *batch; // large
     program program;
-    _Alignas(FE_CACHE_LINE) _Atomic uint64_t claim; // pass << 32 | next block
-    _Alignas(FE_CACHE_LINE) _Atomic uint64_t done;  // blocks of the pass at hand
+    fe__shares shares;
+    _Alignas(FE_CACHE_LINE) _Atomic uint64_t done; // blocks of all passes so far: the only line that they wait on
     _Alignas(FE_CACHE_LINE) _Atomic int32_t next_batch;
 } job;
 
@@ -420,28 +421,28 @@ static void run_small_batches(void *argument, int32_t worker)
 }
 
 // ---- a large batch, together ----------------------------------------------------------------------------------------
-static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
+typedef struct walk {
+    fe__claims claims;
+    uint32_t pass;  // from 1
+    uint64_t after; // blocks that are done when this pass is
+} walk;
+
+// What is left in the first `reach` shares from its own on
+static void run_blocks(job *j, const fe__pass *p, walk *w, int32_t reach)
 {
-    uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
-    while (claim >> 32 == pass_index && (int32_t)(claim & UINT32_MAX) < blocks)
-        if (atomic_compare_exchange_weak_explicit(&j->claim, &claim, claim + 1, memory_order_acq_rel,
-                                                  memory_order_acquire))
-            return (int32_t)(claim & UINT32_MAX);
-    return -1;
+    uint64_t finished = 0;
+    for (int32_t block; (block = fe__shares_claim(&j->shares, &w->claims, reach, w->pass, p->blocks)) >= 0; ++finished)
+        run_block(j, j->batch, p, (unsigned char *)j->s->rows, block);
+    if (finished > 0) atomic_fetch_add_explicit(&j->done, finished, memory_order_acq_rel);
 }
 
-// whoever finishes the last block of a pass opens the next one
-static void finish_block(job *j, uint64_t pass_index, int32_t blocks)
+// The others are nearly done too, as a rule: who helped them at once would take lines of memory from them for nothing.
+// Who has waited helps: some may not even have come.
+static void finish_pass(job *j, const fe__pass *p, walk *w)
 {
-    if ((int32_t)atomic_fetch_add_explicit(&j->done, 1, memory_order_acq_rel) + 1 < blocks) return;
-    atomic_store_explicit(&j->done, 0, memory_order_relaxed);
-    atomic_store_explicit(&j->claim, (pass_index + 1) << 32, memory_order_release);
-}
-
-static void wait_for_pass(job *j, uint64_t pass_index)
-{
-    enum { SPINS_BEFORE_YIELD = 2000 };
-    for (int32_t spins = 0; atomic_load_explicit(&j->claim, memory_order_acquire) >> 32 <= pass_index; ++spins) {
+    enum { SPINS_BEFORE_HELP = 32, SPINS_BEFORE_YIELD = 2000 }; // one or two microseconds; a tenth of a millisecond
+    for (int32_t spins = 0; atomic_load_explicit(&j->done, memory_order_acquire) < w->after; ++spins) {
+        if (spins == SPINS_BEFORE_HELP) run_blocks(j, p, w, j->shares.count);
         if (spins < SPINS_BEFORE_YIELD)
             fe__pause();
         else
@@ -449,18 +450,17 @@ static void wait_for_pass(job *j, uint64_t pass_index)
     }
 }
 
-static void run_large_batch(void *argument, int32_t worker)
+static void run_large_batch(void *argument, int32_t index)
 {
     job *j = argument;
-    (void)worker;
-    int32_t count = pass_count(&j->program);
+    int32_t worker = fe__shares_join(&j->shares), count = pass_count(&j->program);
+    walk w = {.pass = 0, .after = 0};
+    (void)index;
     for (int32_t i = 0; i < count; ++i) {
         const fe__pass *p = pass_at(&j->program, i);
-        for (int32_t block; (block = claim_block(j, (uint64_t)i, p->blocks)) >= 0;) {
-            run_block(j, j->batch, p, (unsigned char *)j->s->rows, block);
-            finish_block(j, (uint64_t)i, p->blocks);
-        }
-        wait_for_pass(j, (uint64_t)i);
+        w = (walk){fe__claims_of(worker), w.pass + 1, w.after + (uint64_t)p->blocks};
+        run_blocks(j, p, &w, 1);
+        finish_pass(j, p, &w);
     }
 }
 
@@ -575,9 +575,10 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
         make_program(&j.program, s, j.batch, constants[j.batch->pace].substeps, kernels->width);
-        atomic_store(&j.claim, 0);
+        int32_t useful = useful_workers(s, j.batch, workers->count);
+        fe__shares_begin(&j.shares, useful);
         atomic_store(&j.done, 0);
-        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count));
+        fe__run(workers, run_large_batch, &j, useful);
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
