@@ -78,7 +78,7 @@ MACHINE_FLAGS += $(if $(WINDOWS),-DFE_SHARED -D__USE_MINGW_ANSI_STDIO=1 $(if $(f
 EXE := $(if $(WINDOWS),.exe)
 # An engine that lacks WebAssembly's SIMD refuses a module with any of it: then all of the code may have it.
 MACHINE_FLAGS += $(if $(filter __wasm__,$(MACROS)),$(if $(filter wasm,$(SIMD_SETS)),-msimd128))
-# WebAssembly has neither shared objects nor, as wasm32-wasi, threads: all runs on the caller.
+# WebAssembly has neither shared objects nor, as wasm32-wasi, threads of its own: see bindings/js/rules.mk.
 SHARING := $(if $(filter __wasm__ _WIN32,$(MACROS)),,-fPIC -pthread)
 
 SIMD_plain := -DFE_W=4 -DFE_PLAIN_C

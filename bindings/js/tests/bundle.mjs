@@ -17,7 +17,7 @@ export default feather;`);
 async function vite() {
     const { build } = await import(pathToFileURL(`${root}/node_modules/vite/dist/node/index.js`));
     const output = { entryFileNames: 'main.js', chunkFileNames: '[name].js', assetFileNames: '[name][extname]' };
-    await build({ root: source, base: './', logLevel: 'warn', worker: { rollupOptions: { output } }, build: { outDir: out, emptyOutDir: true, target: 'esnext', rollupOptions: { input: `${source}/scenario.mjs`, output } } });
+    await build({ root: source, base: './', logLevel: 'warn', worker: { rollupOptions: { output: { ...output, entryFileNames: '[name].js' } } }, build: { outDir: out, emptyOutDir: true, target: 'esnext', rollupOptions: { input: `${source}/scenario.mjs`, output } } });
 }
 async function webpack() {
     const { default: make } = await load('webpack');

@@ -1,6 +1,7 @@
 // What the types accept, and what they refuse.
 import Feather, { type Body, type Hit, type World } from 'feather-physics';
 import FromModule from 'feather-physics/module';
+import WithThreads from 'feather-physics/threads';
 import { BodyInstances, rayOf } from 'feather-physics/three';
 
 async function play(): Promise<number> {
@@ -37,6 +38,12 @@ async function play(): Promise<number> {
     // @ts-expect-error: a player reads bytes, not files
     player.feed(text);
     await FromModule(new Uint8Array());
-    return angle + poses[0]! + (hit?.fraction ?? 0);
+    const { threads, reason, Store } = await WithThreads({ threads: 4 });
+    new Store();
+    // @ts-expect-error: no reason is no string
+    reason.length;
+    // @ts-expect-error: no such option
+    await WithThreads({ workers: 4 });
+    return threads + angle + poses[0]! + (hit?.fraction ?? 0);
 }
 void play;
