@@ -8,7 +8,7 @@ import os
 from dataclasses import dataclass, field
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Set, Tuple
 
-from .errors import InvalidArgumentError, UnsupportedError
+from .errors import FeatherError, InvalidArgumentError, UnsupportedError
 from .frames import (
     NO_TURN,
     ORIGIN,
@@ -29,21 +29,22 @@ from .frames import (
 from .mjcf_geom import Geom, combine, volume_of
 from .mjcf_save import LETTERS, WORLD
 from .mjcf_save import save_mjcf as save_mjcf  # with load_mjcf, as in urdf
-from .robot_xml import Element, Reader, parse, read_source
-from .scene import Scene, SceneActuator, SceneBody, SceneFreedom, SceneJoint, SceneShape
+from .robot_mesh import ELLIPSOID_POINTS, Triangles, ellipsoid, find_file, mass_of, read_mesh, scaled
+from .robot_xml import Element, Reader, parse, read_source, row
+from .scene import Scene, SceneActuator, SceneBody, SceneFreedom, SceneJoint, SceneMesh, SceneShape
 
 GRAVITY: Triple = (0.0, 0.0, -9.81)
 DENSITY = 1000.0  # kg/m3, where a file gives none
 MOST_INCLUDED = 100
 # what says nothing about motion
-SILENT = {"visual", "statistic", "asset", "size", "custom", "sensor", "site", "camera", "light"}
+SILENT = {"visual", "statistic", "size", "custom", "sensor", "site", "camera", "light"}
 UNSUPPORTED = {"composite", "replicate", "attach"}
 LOST = {"tendon", "keyframe", "pair", "plugin", "extension", "deformable", "skin", "flexcomp"}
-DEFAULTS = {"geom", "joint", "motor", "position", "velocity"}
+DEFAULTS = {"geom", "mesh", "joint", "motor", "position", "velocity"}
 ACTUATORS = {"motor", "position", "velocity"}
 OTHER_ACTUATORS = {"general", "intvelocity", "damper", "cylinder", "muscle", "adhesion"}
 FIELDS = {
-    "mujoco": {"compiler", "option", "default", "worldbody", "contact", "equality", "actuator", "include"}
+    "mujoco": {"compiler", "option", "default", "asset", "worldbody", "contact", "equality", "actuator", "include"}
     | SILENT
     | LOST,
     "worldbody": {"body", "geom", "frame"} | SILENT,
@@ -76,6 +77,8 @@ class Compiler:
     sequence: str = "xyz"
     inertia_from_geom: str = "auto"
     auto_limits: bool = True
+    mesh_folder: str = ""
+    strip_path: bool = False
 
 
 @dataclass
@@ -92,8 +95,10 @@ class MjcfReader(Reader):
 
     FIELDS, LOST = FIELDS, LOST
 
-    def __init__(self, file: str, strict: bool):
+    def __init__(self, file: str, strict: bool, path: Optional[str], folders: Sequence[Any]):
         super().__init__(file, strict)
+        self.path, self.folders = path, folders
+        self.meshes: Dict[str, Element] = {}  # of <asset>; those that geoms have are read
         self.compiler = Compiler()
         self.classes: Dict[str, Dict[str, Dict[str, str]]] = {"main": {}}
         self.scene = Scene(gravity=GRAVITY, warnings=self.warnings)
@@ -101,6 +106,7 @@ class MjcfReader(Reader):
         self.names: Dict[str, Set[str]] = {"body": {WORLD}, "joint": set(), "actuator": set()}
         self.lines: Dict[str, Element] = {}
         self.told: Set[str] = set()
+        self.lacking: Set[str] = set()  # meshes
 
     def tell_once(self, element: Element, text: str) -> None:
         """What many elements have."""
@@ -173,6 +179,8 @@ class MjcfReader(Reader):
         if len(had.sequence) != 3 or set(had.sequence.lower()) - set(LETTERS):
             raise self.fail(element, f"eulerseq: three of x, y, z, X, Y, Z are needed, not {had.sequence!r}")
         had.inertia_from_geom = self.choice(element, "inertiafromgeom", (*truth, "auto"), had.inertia_from_geom)
+        had.mesh_folder = element.attributes.get("meshdir", element.attributes.get("assetdir", had.mesh_folder))
+        had.strip_path = self.choice(element, "strippath", truth, "true" if had.strip_path else "false") == "true"
         had.auto_limits = self.choice(element, "autolimits", truth, "true" if had.auto_limits else "false") == "true"
         for name in ("boundmass", "boundinertia", "settotalmass", "balanceinertia", "inertiagrouprange", "fusestatic"):
             if element.attributes.get(name, "false") not in ("false", "0", "-1"):
@@ -254,8 +262,11 @@ class MjcfReader(Reader):
         """A form, in the frame of the body."""
         kinds = ("sphere", "capsule", "cylinder", "box", "ellipsoid", "plane", "mesh", "hfield", "sdf")
         kind = self.choice(element, "type", kinds, "sphere")
-        if "mesh" in element.attributes or kind in ("mesh", "hfield", "sdf"):
-            self.warn(element, f"{'meshes' if kind == 'mesh' else kind} are left out, and their mass")
+        if kind == "mesh":
+            return self.mesh_geom(element, at)
+        if "mesh" in element.attributes or kind in ("hfield", "sdf"):
+            what = "forms that are fitted to a mesh" if "mesh" in element.attributes else f"{kind}s"
+            self.warn(element, f"{what} are left out, and their mass")
             return None
         frame, size = self.placed(element, kind)
         frame = at.then(frame)
@@ -266,6 +277,71 @@ class MjcfReader(Reader):
             raise self.fail(element, "mass and density are not negative")
         moments = tuple(mass * share for share in shares)
         return Geom(self.shape(element, kind, size, frame, density), mass, moments, frame)  # type: ignore[arg-type]
+
+    def mesh_geom(self, element: Element, at: Frame) -> Optional[Geom]:
+        """A mesh, whose mass is that of what its triangles enclose."""
+        mesh = self.mesh(element)
+        if mesh is None:
+            return None
+        frame, density = at.then(self.pose(element)), self.number(element, "density", DENSITY)
+        try:
+            found = mass_of(mesh.points, mesh.triangles)
+        except FeatherError as error:
+            raise self.fail(element, f"mesh {mesh.name!r}: {error}") from None
+        if found is None:
+            raise self.fail(element, f"mesh {mesh.name!r} encloses nothing")
+        volume, centre, shares, axes = found
+        mass = self.number(element, "mass", density * volume)
+        if mass < 0 or density < 0:
+            raise self.fail(element, "mass and density are not negative")
+        shape = self.shape(element, "mesh", [], frame, density)
+        if shape is not None:
+            shape.mesh = mesh.name
+        moments = (mass * shares[0], mass * shares[1], mass * shares[2])
+        return Geom(shape, mass, moments, frame.then(Frame(centre, axes)))
+
+    def mesh(self, element: Element) -> Optional[SceneMesh]:
+        """That of a geom, read when the first one has it."""
+        name = self.need(element, "mesh")
+        known = next((mesh for mesh in self.scene.meshes if mesh.name == name), None)
+        if known is not None or name in self.lacking:
+            return known
+        if name not in self.meshes:
+            raise self.fail(element, f"there is no mesh {name!r}")
+        asset = self.meshes[name]
+        try:
+            points, triangles = self.triangles(asset)
+        except (UnsupportedError, FileNotFoundError) as error:
+            self.warn(asset, f"{error}: it is left out, and its mass")
+            self.lacking.add(name)
+            return None
+        at = Frame(tuple(self.numbers(asset, "refpos", 3, ORIGIN)), NO_TURN)  # type: ignore[arg-type]
+        w, x, y, z = normalized(self.numbers(asset, "refquat", 4, (1, 0, 0, 0)))
+        at = Frame(at.position, (x, y, z, w))
+        if at != Frame():
+            rows = (inside(at, Frame((points[k], points[k + 1], points[k + 2]))) for k in range(0, len(points), 3))
+            points = [number for each in rows for number in each.position]
+        made = SceneMesh(name, points, triangles)
+        self.scene.meshes.append(made)
+        return made
+
+    def triangles(self, asset: Element) -> Triangles:
+        """Of a <mesh> of <asset>."""
+        scale = self.numbers(asset, "scale", 3, (1, 1, 1))
+        if "file" not in asset.attributes:
+            count = len(self.need(asset, "vertex").split())
+            points = self.numbers(asset, "vertex", count)
+            corners = self.numbers(asset, "face", len(asset.attributes.get("face", "").split()), ())
+            places = range(len(points) // 3)
+            if count < 12 or count % 3 or len(corners) % 3 or not all(corner in places for corner in corners):
+                raise self.fail(asset, "vertex and face: three numbers each are needed, of four points at least")
+            return scaled(points, [int(corner) for corner in corners], scale, f"{self.file}:{asset.line}")
+        name = asset.attributes["file"]
+        name = os.path.basename(name) if self.compiler.strip_path else name
+        file = find_file(os.path.join(self.compiler.mesh_folder, name), self.path, self.folders)
+        if file is None:
+            raise FileNotFoundError(f"there is no file {name!r}")
+        return read_mesh(file, scale)
 
     def placed(self, element: Element, kind: str) -> Tuple[Frame, List[float]]:
         """Where it is, and its sizes; along z."""
@@ -299,13 +375,15 @@ class MjcfReader(Reader):
             self.tell_once(element, "contype and conaffinity count only where both are 0")
         if not any(types):
             return None
-        if kind == "ellipsoid":
-            self.warn(element, "ellipsoids collide with nothing, but count for the mass")
-            return None
         friction = self.some_numbers(element, "friction", 1, 3)[0] if "friction" in element.attributes else 1.0
         if friction < 0:
             raise self.fail(element, "friction is not negative")
         made = SceneShape(kind, size, frame.position, frame.rotation, density if density > 0 else DENSITY, friction)
+        if kind == "ellipsoid":
+            self.tell_once(element, f"ellipsoids collide as hulls of {ELLIPSOID_POINTS} points")
+            made.form, made.size, made.mesh = "mesh", [], f"ellipsoid {row(size)}"
+            if made.mesh not in {mesh.name for mesh in self.scene.meshes}:
+                self.scene.meshes.append(SceneMesh(made.mesh, ellipsoid(size)))
         if kind in ("capsule", "cylinder"):
             made.size = [size[1], size[0]]
         if kind in ("capsule", "cylinder", "plane"):
@@ -552,6 +630,7 @@ class MjcfReader(Reader):
         self.known(root)
         self.settings(root)
         self.scene.name = root.attributes.get("model", "")
+        self.assets(root)
         world = SceneBody(WORLD, "static")
         for element in root.children:
             if element.tag != "worldbody":
@@ -570,6 +649,15 @@ class MjcfReader(Reader):
                 for child in element.children:
                     getattr(self, element.tag)(child)
         return self.scene
+
+    def assets(self, root: Element) -> None:
+        """<asset>: the meshes by name."""
+        for element in root.children:
+            for child in element.children if element.tag == "asset" else ():
+                if child.tag == "mesh":
+                    made = self.with_defaults(child, None)
+                    usual = os.path.splitext(os.path.basename(made.attributes.get("file", "")))[0]
+                    self.meshes[made.attributes.get("name", usual)] = made
 
     def body_named(self, element: Element, name: str) -> Optional[str]:
         """A body of the scene; None: the world."""
@@ -639,10 +727,12 @@ class MjcfReader(Reader):
         self.scene.actuators.append(actuator)
 
 
-def load_mjcf(source: Any, *, strict: bool = False) -> Scene:
+def load_mjcf(source: Any, *, strict: bool = False, folders: Sequence[Any] = ()) -> Scene:
     """Of a path, or of the text itself (str that begins with "<", or bytes). What is not exact is a warning in the
     scene, with strict=True an error. What is wrong is an InvalidArgumentError that names file, line and element; what
-    no scene has is an UnsupportedError."""
+    no scene has is an UnsupportedError. Meshes (STL, OBJ) are looked for beside the file and in `folders`; they collide
+    as their hulls, on static bodies as they are."""
     text, file = read_source(source, "mjcf")
-    folder = None if text is source else os.path.dirname(os.fspath(source))
-    return MjcfReader(file, strict).model(parse(text, file), folder)
+    path = None if text is source else file
+    folder = None if path is None else os.path.dirname(path)
+    return MjcfReader(file, strict, path, folders).model(parse(text, file), folder)

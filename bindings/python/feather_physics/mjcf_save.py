@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Sequence
 from .errors import UnsupportedError
 from .frames import ORIGIN, Z_TO_Y, Frame, inside, rotate
 from .robot_xml import escaped, row
-from .scene import Scene, SceneActuator, SceneBody, SceneJoint, SceneShape
+from .scene import Scene, SceneActuator, SceneBody, SceneJoint, SceneMesh, SceneShape
 
 LETTERS = "xyz"
 WORLD = "world"
@@ -28,6 +28,8 @@ def _geom(shape: SceneShape, indent: str) -> str:
         frame = frame.then(Frame(ORIGIN, Z_TO_Y))
         size = [size[1], size[0]] if size else [0.0, 0.0, 1.0]
     friction = 1.0 if shape.friction is None else shape.friction
+    if shape.form == "mesh":
+        return f'{indent}<geom type="mesh" mesh="{escaped(shape.mesh)}" {_pose(frame)} density="{shape.density!r}" friction="{friction!r}"/>\n'
     return f'{indent}<geom type="{shape.form}" size="{row(size)}" {_pose(frame)} density="{shape.density!r}" friction="{friction!r}"/>\n'
 
 
@@ -134,6 +136,8 @@ class _Writer:
         text = f'<mujoco model="{escaped(scene.name)}">\n  <compiler angle="radian" autolimits="true"/>\n'
         if scene.gravity is not None:
             text += f'  <option gravity="{row(scene.gravity)}"/>\n'
+        meshes = "".join(map(_mesh, scene.meshes))
+        text += f"  <asset>\n{meshes}  </asset>\n" if meshes else ""
         text += f"  <worldbody>\n{world}  </worldbody>\n"
         excluded = "".join(f'    <exclude body1="{escaped(a)}" body2="{escaped(b)}"/>\n' for a, b in scene.excluded)
         loops = "".join(map(self.loop, self.loops))
@@ -142,6 +146,11 @@ class _Writer:
             if inner:
                 text += f"  <{tag}>\n{inner}  </{tag}>\n"
         return text + "</mujoco>\n"
+
+
+def _mesh(mesh: SceneMesh) -> str:
+    faces = f' face="{" ".join(map(str, mesh.triangles))}"' if mesh.triangles else ""
+    return f'    <mesh name="{escaped(mesh.name)}" vertex="{row(mesh.points)}"{faces}/>\n'
 
 
 def _actuator(one: SceneActuator) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from ._flat import Quat, Vec3
 from .errors import InvalidArgumentError, VersionError
@@ -26,6 +26,8 @@ from .frames import (
 )
 from .objects import Body, Joint
 from .records import Box, Capsule, Cylinder, Geometry, MassData, Material, Plane, Sphere
+from .robot_mesh import hull_of, mesh_of
+from .store import Hull, Mesh
 from .world import World
 
 FORMAT = "feather-scene"
@@ -35,9 +37,23 @@ VERSION = 1
 
 
 @dataclass
+class SceneMesh:
+    """Points, m, three numbers each, and triangles, three places of points each, counterclockwise seen from outside.
+    Without triangles the hull of the points counts. `file`: where it is from, and by what it was scaled, as a URDF
+    has it."""
+
+    name: str
+    points: List[float]
+    triangles: List[int] = field(default_factory=list)
+    file: str = ""
+    scale: Triple = (1.0, 1.0, 1.0)
+
+
+@dataclass
 class SceneShape:
     """A form on a body: "box" (half extents), "sphere" (radius), "capsule", "cylinder" (half height, radius; along Y),
-    or "plane" (no size, Y is up), on static bodies."""
+    "plane" (no size, Y is up), on static bodies, or "mesh": one of the scene's, by name, whose triangles count on static
+    bodies, its hull on others."""
 
     form: str
     size: List[float]
@@ -45,9 +61,10 @@ class SceneShape:
     rotation: Turn = NO_TURN
     density: float = 1000.0
     friction: Optional[float] = None
+    mesh: str = ""
 
     def geometry(self) -> Geometry:
-        """What Body.add() takes."""
+        """What Body.add() takes, but for a mesh."""
         if self.form == "box":
             return Box(*self.size)
         if self.form == "sphere":
@@ -138,22 +155,25 @@ class SceneActuator:
 
 
 class Built:
-    """What a scene became in a world: `bodies` and `joints` by name."""
+    """What a scene became in a world: `bodies` and `joints` by name; `assets` of its store, by the name of the mesh and
+    whether they are triangles."""
 
     def __init__(self) -> None:
         self.bodies: Dict[str, Body] = {}
         self.joints: Dict[str, Joint] = {}
+        self.assets: Dict[Tuple[str, bool], Union[Hull, Mesh]] = {}
 
 
 @dataclass
 class Scene:
-    """Bodies and joints with names; pairs of bodies that do not collide; the gravity that the file asks for, m/s2.
+    """Bodies, joints and meshes with names; pairs of bodies that do not collide; the gravity that the file asks for, m/s2.
     `warnings`: what the file has and the scene has not, with the file and the line."""
 
     name: str = ""
     bodies: List[SceneBody] = field(default_factory=list)
     joints: List[SceneJoint] = field(default_factory=list)
     actuators: List[SceneActuator] = field(default_factory=list)
+    meshes: List[SceneMesh] = field(default_factory=list)
     excluded: List[Tuple[str, str]] = field(default_factory=list)
     gravity: Optional[Triple] = None
     warnings: List[str] = field(default_factory=list)
@@ -168,7 +188,7 @@ class Scene:
         built = Built()
         try:
             for body in self.bodies:
-                built.bodies[body.name] = _make_body(world, body, self.joints, position, rotation, shape)
+                built.bodies[body.name] = self._make_body(world, body, built, position, rotation, shape)
             for a, b in self.excluded:
                 for name in (a, b):
                     if name not in built.bodies:
@@ -179,8 +199,51 @@ class Scene:
                     built.joints[joint.name] = _make_joint(world, joint, built, position, rotation)
         except BaseException:
             world.destroy_bodies(list(built.bodies.values()))  # their joints go with them
+            for asset in built.assets.values():
+                asset.destroy()
             raise
         return built
+
+    def _make_body(
+        self,
+        world: World,
+        body: SceneBody,
+        built: Built,
+        position: Sequence[float],
+        rotation: Sequence[float],
+        options: Any,
+    ) -> Body:
+        place, turn = add(position, rotate(rotation, body.position)), normalized(multiply(rotation, body.rotation))
+        made = world.create_body(body.type, position=place, rotation=turn)
+        try:
+            for shape in body.shapes:
+                settings: Dict[str, Any] = {
+                    "position": shape.position,
+                    "rotation": shape.rotation,
+                    "density": shape.density,
+                    **options,
+                }
+                if shape.friction is not None:
+                    settings["material"] = Material(static_friction=shape.friction, dynamic_friction=shape.friction)
+                is_mesh = shape.form == "mesh"
+                form = self._asset(world, shape.mesh, body.type == "static", built) if is_mesh else shape.geometry()
+                made.add(form, **settings)
+            if body.mass is not None and body.type == "dynamic":
+                moments, axes = _inertia(body, self.joints)
+                made.mass_data = MassData(body.mass, Vec3(body.centre), Vec3(moments), Quat(axes))
+        except BaseException:
+            made.destroy()
+            raise
+        return made
+
+    def _asset(self, world: World, name: str, is_static: bool, built: Built) -> Union[Hull, Mesh]:
+        mesh = next((mesh for mesh in self.meshes if mesh.name == name), None)
+        if mesh is None:
+            raise InvalidArgumentError(f"build: there is no mesh {name!r}")
+        key = (name, is_static and bool(mesh.triangles))
+        if key not in built.assets:
+            built.assets[key] = mesh_of(world, mesh.points, mesh.triangles) if key[1] else hull_of(world, mesh.points)
+        return built.assets[key]
 
     # ---- JSON
 
@@ -189,6 +252,7 @@ class Scene:
         record: Dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": self.name}
         record["bodies"] = [asdict(body) for body in self.bodies]
         record["joints"] = [asdict(joint) for joint in self.joints]
+        record["meshes"] = [asdict(mesh) for mesh in self.meshes]
         record["actuators"] = [asdict(actuator) for actuator in self.actuators]
         record["excluded"], record["gravity"] = self.excluded, self.gravity
         return json.dumps(record, indent=1, allow_nan=False)
@@ -219,6 +283,7 @@ class Scene:
         scene.actuators = [
             _record(SceneActuator, item, "actuators") for item in _list(record.get("actuators", []), "actuators")
         ]
+        scene.meshes = [_mesh(item) for item in _list(record.get("meshes", []), "meshes")]
         for pair in _list(record.get("excluded", []), "excluded"):
             if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(name, str) for name in pair):
                 raise InvalidArgumentError(f"from_json: excluded: two names are needed, not {pair!r}")
@@ -243,9 +308,9 @@ def _text(value: Any, what: str) -> str:
     return value
 
 
-TEXTS = {"name", "type", "form", "b"}  # and the axis of a freedom, the joint of an actuator
-LISTS = {"shapes", "freedoms"}
-LENGTHS = {"position": 3, "rotation": 4, "centre": 3, "inertia": 3, "inertia_rotation": 4, "axis": 3}
+TEXTS = {"name", "type", "form", "b", "mesh", "file"}  # and the axis of a freedom, the joint of an actuator
+LISTS = {"shapes", "freedoms", "points", "triangles"}
+LENGTHS = {"scale": 3, "position": 3, "rotation": 4, "centre": 3, "inertia": 3, "inertia_rotation": 4, "axis": 3}
 MAY_LACK = {"mass", "friction", "lower", "upper", "effort", "velocity", "cone", "force_lower", "force_upper"}
 
 
@@ -281,6 +346,17 @@ def _record(kind: Any, item: Any, what: str) -> Any:
         raise InvalidArgumentError(f"from_json: {what}: {error}") from None
 
 
+def _mesh(item: Any) -> SceneMesh:
+    mesh: SceneMesh = _record(SceneMesh, item, "meshes")
+    points, triangles = _list(mesh.points, "points"), _list(mesh.triangles, "triangles")
+    if not points or len(points) % 3 or not all(map(_number, points)):
+        raise InvalidArgumentError(f"from_json: points of {mesh.name}: three numbers each are needed")
+    places = range(len(points) // 3)
+    if len(triangles) % 3 or not all(type(corner) is int and corner in places for corner in triangles):
+        raise InvalidArgumentError(f"from_json: triangles of {mesh.name}: three places of points each are needed")
+    return mesh
+
+
 # ---- bodies and joints in a world
 
 
@@ -309,36 +385,6 @@ def _inertia(body: SceneBody, joints: Sequence[SceneJoint]) -> Tuple[Triple, Tur
         low = moments.index(min(moments))
         moments = tuple(m + missing * (k == low) for k, m in enumerate(moments))  # type: ignore[assignment]
     return moments, axes
-
-
-def _make_body(
-    world: World,
-    body: SceneBody,
-    joints: Sequence[SceneJoint],
-    position: Sequence[float],
-    rotation: Sequence[float],
-    options: Any,
-) -> Body:
-    place, turn = add(position, rotate(rotation, body.position)), normalized(multiply(rotation, body.rotation))
-    made = world.create_body(body.type, position=place, rotation=turn)
-    try:
-        for shape in body.shapes:
-            settings: Dict[str, Any] = {
-                "position": shape.position,
-                "rotation": shape.rotation,
-                "density": shape.density,
-                **options,
-            }
-            if shape.friction is not None:
-                settings["material"] = Material(static_friction=shape.friction, dynamic_friction=shape.friction)
-            made.add(shape.geometry(), **settings)
-        if body.mass is not None and body.type == "dynamic":
-            moments, axes = _inertia(body, joints)
-            made.mass_data = MassData(body.mass, Vec3(body.centre), Vec3(moments), Quat(axes))
-    except BaseException:
-        made.destroy()
-        raise
-    return made
 
 
 JOINT_AXES = {"hinge": "angular_x", "slider": "linear_x"}

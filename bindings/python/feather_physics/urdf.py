@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from .errors import InvalidArgumentError, UnsupportedError
 from .frames import (
@@ -20,8 +20,9 @@ from .frames import (
     rotate,
     turn_of,
 )
+from .robot_mesh import find_file, read_mesh
 from .robot_xml import Element, Reader, escaped, parse, read_source, row
-from .scene import Scene, SceneBody, SceneJoint, SceneShape
+from .scene import Scene, SceneBody, SceneJoint, SceneMesh, SceneShape
 
 JOINTS = {
     "fixed": "fixed",
@@ -53,9 +54,11 @@ class UrdfReader(Reader):
 
     FIELDS, LOST = FIELDS, LOST
 
-    def __init__(self, file: str, strict: bool, inertia: str):
+    def __init__(self, file: str, strict: bool, inertia: str, path: Optional[str], folders: Sequence[Any]):
         super().__init__(file, strict)
-        self.inertia = inertia
+        self.inertia, self.path, self.folders = inertia, path, folders
+        self.meshes: Dict[str, SceneMesh] = {}
+        self.hulls: List[Tuple[Element, SceneBody]] = []  # where meshes are, of bodies that may be dynamic
 
     def origin(self, element: Element) -> Frame:
         """Its <origin>; without one no turn and no way."""
@@ -67,7 +70,25 @@ class UrdfReader(Reader):
 
     # ---- links
 
-    def shape(self, element: Element) -> Optional[SceneShape]:
+    def mesh(self, form: Element) -> Optional[SceneMesh]:
+        """A <mesh>, read once for each scale."""
+        name, scale = self.need(form, "filename"), self.numbers(form, "scale", 3, (1, 1, 1))
+        key = name if scale == [1, 1, 1] else f"{name} {row(scale)}"
+        if key not in self.meshes:
+            file = find_file(name, self.path, self.folders)
+            if file is None:
+                self.warn(form, f"there is no file {name!r}: it is left out")
+                return None
+            try:
+                points, triangles = read_mesh(file, scale)
+            except UnsupportedError as error:
+                self.warn(form, f"{error}: it is left out")
+                return None
+            x, y, z = scale
+            self.meshes[key] = SceneMesh(key, points, triangles, name, (x, y, z))
+        return self.meshes[key]
+
+    def shape(self, element: Element, body: SceneBody) -> Optional[SceneShape]:
         """A <collision>."""
         self.known(element)
         geometry = element.find("geometry")
@@ -76,8 +97,11 @@ class UrdfReader(Reader):
         self.known(geometry)
         form, frame = geometry.children[0], self.origin(element)
         if form.tag == "mesh":
-            self.warn(form, "meshes are left out")
-            return None
+            mesh = self.mesh(form)
+            if mesh is None:
+                return None
+            self.hulls.append((form, body))
+            return SceneShape("mesh", [], frame.position, frame.rotation, mesh=mesh.name)
         if form.tag == "box":
             size = [0.5 * x for x in self.numbers(form, "size", 3)]
             if min(size) <= 0:
@@ -112,7 +136,7 @@ class UrdfReader(Reader):
         body = SceneBody(self.need(element, "name"))
         for child in element.children:
             if child.tag == "collision":
-                shape = self.shape(child)
+                shape = self.shape(child, body)
                 if shape is not None:
                     body.shapes.append(shape)
         inertial = element.find("inertial")
@@ -225,6 +249,10 @@ class UrdfReader(Reader):
         base = bodies[first]
         if fixed_base or (base.mass is None and (not base.shapes or self.inertia != "from_shapes")):
             base.type = "static"
+        for form, body in self.hulls:
+            if body.type == "dynamic":
+                self.warn(form, "collides as its hull")
+        scene.meshes = list(self.meshes.values())
         waiting = [(first, Frame())]
         while waiting:
             name, frame = waiting.pop(0)
@@ -244,15 +272,25 @@ class UrdfReader(Reader):
         return scene
 
 
-def load_urdf(source: Any, *, fixed_base: bool = False, strict: bool = False, inertia: str = "from_file") -> Scene:
+def load_urdf(
+    source: Any,
+    *,
+    fixed_base: bool = False,
+    strict: bool = False,
+    inertia: str = "from_file",
+    folders: Sequence[Any] = (),
+) -> Scene:
     """Of a path, or of the text itself (str that begins with "<", or bytes). The first link is static with fixed_base,
     or when it has no mass. What is not exact is a warning in the scene, with strict=True an error; what is wrong is an
     InvalidArgumentError that names file, line and element. inertia="from_shapes": links without one take that of their
-    shapes, at 1000 kg/m3."""
+    shapes, at 1000 kg/m3. Meshes (STL, OBJ) are looked for beside the file and in `folders`, and what begins with
+    package:// in those that hold the package, or the file itself; they collide as their hulls, on a static base as they
+    are."""
     if inertia not in ("from_file", "from_shapes"):
         raise InvalidArgumentError(f"inertia: from_file or from_shapes is needed, not {inertia!r}")
     text, file = read_source(source, "urdf")
-    return UrdfReader(file, strict, inertia).robot(parse(text, file), fixed_base)
+    path = None if text is source else file
+    return UrdfReader(file, strict, inertia, path, folders).robot(parse(text, file), fixed_base)
 
 
 # ---- writing
@@ -262,7 +300,17 @@ def _origin(frame: Frame, indent: str) -> str:
     return f'{indent}<origin xyz="{row(frame.position)}" rpy="{row(angles_of(frame.rotation))}"/>\n'
 
 
-def _link(body: SceneBody) -> str:
+def _mesh(body: SceneBody, shape: SceneShape, meshes: Dict[str, SceneMesh]) -> str:
+    mesh = meshes.get(shape.mesh)
+    if mesh is None or not mesh.file:
+        raise UnsupportedError(
+            f"save_urdf: body {body.name}: URDF has meshes in files alone, {shape.mesh!r} is of none"
+        )
+    scale = "" if mesh.scale == (1, 1, 1) else f' scale="{row(mesh.scale)}"'
+    return f'<mesh filename="{escaped(mesh.file)}"{scale}/>'
+
+
+def _link(body: SceneBody, meshes: Dict[str, SceneMesh]) -> str:
     text = f'  <link name="{escaped(body.name)}">\n'
     if body.mass is not None:
         m = matrix_of(body.inertia, body.inertia_rotation)
@@ -277,6 +325,8 @@ def _link(body: SceneBody) -> str:
             form = f'<{shape.form} radius="{shape.size[1]!r}" length="{2 * shape.size[0]!r}"/>'
         elif shape.form == "sphere":
             form = f'<sphere radius="{shape.size[0]!r}"/>'
+        elif shape.form == "mesh":
+            form = _mesh(body, shape, meshes)
         else:
             form = f'<box size="{row([2 * x for x in shape.size])}"/>'
         text += f"    <collision>\n{_origin(frame, '      ')}      <geometry>{form}</geometry>\n    </collision>\n"
@@ -307,11 +357,13 @@ def _joint(joint: SceneJoint, frames: Dict[str, Frame]) -> str:
 
 
 def save_urdf(scene: Scene) -> str:
-    """The text of a scene that is one tree; loading it gives the scene again, up to rounding."""
+    """The text of a scene that is one tree; loading it gives the scene again, up to rounding. Its meshes stay in their
+    files."""
+    meshes = {mesh.name: mesh for mesh in scene.meshes}
     frames = {body.name: Frame(body.position, body.rotation) for body in scene.bodies}
     for joint in scene.joints:
         if joint.type not in WRITTEN and joint.type != "hinge":
             raise UnsupportedError(f"save_urdf: joint {joint.name}: URDF has no {joint.type!r}")
-    links = "".join(_link(body) for body in scene.bodies)
+    links = "".join(_link(body, meshes) for body in scene.bodies)
     joints = "".join(_joint(joint, frames) for joint in scene.joints)
     return f'<?xml version="1.0"?>\n<robot name="{escaped(scene.name)}">\n{links}{joints}</robot>\n'

@@ -45,10 +45,10 @@ def near(a: Any, b: Any) -> bool:
 
 
 def plain(scene: Scene) -> Any:
-    """As records in which nothing stands twice: bodies and principal axes may stand in another order, a turn has two
-    quaternions."""
+    """As records in which nothing stands twice: bodies, meshes and principal axes may stand in another order, a turn has
+    two quaternions."""
     record = json.loads(scene.to_json())
-    for kind in ("bodies", "joints"):
+    for kind in ("bodies", "joints", "meshes"):
         record[kind].sort(key=lambda one: one["name"])
     for body in record["bodies"]:
         q = multiply(body["rotation"], body.pop("inertia_rotation"))

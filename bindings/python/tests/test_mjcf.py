@@ -396,12 +396,13 @@ def test_what_is_not_exact_is_a_warning_or_an_error() -> None:
         '<geom size="1"/><geom type="ellipsoid" size="1 1 1"/><geom type="mesh" mesh="m"/></body>'
         '<body name="b"><joint type="ball" range="0 1"/><geom size="1"/></body><body name="c"><joint range="-9 9"/><geom size="1"/></body>'
     )
-    scene = load_mjcf(model(body, "<tendon/><equality><tendon/></equality>"))
+    lacking = '<asset><mesh name="m" file="none.stl"/></asset>'
+    scene = load_mjcf(model(body, lacking + "<tendon/><equality><tendon/></equality>"))
     told = "\n".join(scene.warnings)
     for word in (
         "<tendon>",
         "ellipsoids",
-        "meshes",
+        "no file",
         "armature",
         "solreflimit",
         "moved by 1 m",
@@ -411,7 +412,7 @@ def test_what_is_not_exact_is_a_warning_or_an_error() -> None:
     ):
         assert word in told, word
     with pytest.raises(InvalidArgumentError, match="is left out"):
-        load_mjcf(model(body, "<tendon/>"), strict=True)
+        load_mjcf(model(body, lacking + "<tendon/>"), strict=True)
     with World() as world:
         scene.build(world)
         world.step()
