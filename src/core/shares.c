@@ -40,10 +40,12 @@ static int32_t claim_of(_Atomic uint64_t *next, uint32_t pass, int32_t block_cou
     }
 }
 
-int32_t fe__shares_claim(fe__shares *shares, fe__claims *claims, int32_t reach, uint32_t pass, int32_t block_count)
+int32_t fe__shares_claim(fe__shares *shares, fe__claims *claims, fe__reach reach, uint32_t pass, int32_t block_count)
 {
-    for (; claims->offset < reach; ++claims->offset) {
+    uint64_t taken = atomic_load_explicit(&shares->taken, memory_order_relaxed);
+    for (; claims->offset < shares->count; ++claims->offset) {
         int32_t owner = (claims->worker + claims->offset) % shares->count;
+        if (reach == FE__OWN_SHARES && claims->offset > 0 && taken >> owner & 1) continue;
         int32_t first = first_of(shares, owner, block_count), end = first_of(shares, owner + 1, block_count);
         int32_t block = claim_of(&shares->of[owner].next, pass, end - first);
         if (block >= 0) return first + block;

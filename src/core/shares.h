@@ -19,21 +19,25 @@ typedef struct fe__shares {
     } of[FE_MAX_WORKERS];
 } fe__shares;
 
-// Where a worker claims
+// Where a worker claims in a pass
 typedef struct fe__claims {
     int32_t worker;
-    int32_t offset; // shares that are known to be done, from its own on
+    int32_t offset; // shares that it has looked at, from its own on
 } fe__claims;
+
+typedef enum fe__reach {
+    FE__OWN_SHARES, // its own, and those of workers who have not come
+    FE__ALL_SHARES
+} fe__reach;
 
 // Before workers come, at most `count` of them: 1..FE_MAX_WORKERS.
 void fe__shares_begin(fe__shares *shares, int32_t count);
 // A worker's number, that of nobody else in these shares: the thread's own, see fe__thread_number, unless it is taken.
 int32_t fe__shares_join(fe__shares *shares);
-// Where claims of a pass begin
+// Where claims of a pass begin, and again where the reach is another
 static inline fe__claims fe__claims_of(int32_t worker) { return (fe__claims){worker, 0}; }
-// A block in [0, block_count) that nobody else gets, or -1: all are claimed of the first `reach` shares from the
-// worker's own on. 1: its own; shares->count: all. Passes go up from 1, and all blocks of one are claimed before the
-// first of the next. Orders nothing in memory.
-int32_t fe__shares_claim(fe__shares *shares, fe__claims *claims, int32_t reach, uint32_t pass, int32_t block_count);
+// A block in [0, block_count) that nobody else gets, or -1: none is left within reach. Passes go up from 1, and all
+// blocks of one are claimed before the first of the next. Orders nothing in memory.
+int32_t fe__shares_claim(fe__shares *shares, fe__claims *claims, fe__reach reach, uint32_t pass, int32_t block_count);
 
 #endif

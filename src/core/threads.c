@@ -432,8 +432,9 @@ static void claim_blocks(void *argument, int32_t index)
     range_run *run = argument;
     fe__claims claims = fe__claims_of(fe__shares_join(&run->shares));
     (void)index;
-    int32_t all = run->shares.count;
-    for (int32_t block; (block = fe__shares_claim(&run->shares, &claims, all, ONLY_PASS, run->block_count)) >= 0;) {
+    for (;;) {
+        int32_t block = fe__shares_claim(&run->shares, &claims, FE__ALL_SHARES, ONLY_PASS, run->block_count);
+        if (block < 0) return;
         int32_t first = block * run->block;
         int32_t rest = run->count - first;
         run->task(run->argument, first, first + (rest < run->block ? rest : run->block), claims.worker);

@@ -422,27 +422,27 @@ static void run_small_batches(void *argument, int32_t worker)
 
 // ---- a large batch, together ----------------------------------------------------------------------------------------
 typedef struct walk {
-    fe__claims claims;
+    int32_t worker;
     uint32_t pass;  // from 1
     uint64_t after; // blocks that are done when this pass is
 } walk;
 
-// What is left in the first `reach` shares from its own on
-static void run_blocks(job *j, const fe__pass *p, walk *w, int32_t reach)
+static void run_blocks(job *j, const fe__pass *p, const walk *w, fe__reach reach)
 {
     uint64_t finished = 0;
-    for (int32_t block; (block = fe__shares_claim(&j->shares, &w->claims, reach, w->pass, p->blocks)) >= 0; ++finished)
+    fe__claims claims = fe__claims_of(w->worker);
+    for (int32_t block; (block = fe__shares_claim(&j->shares, &claims, reach, w->pass, p->blocks)) >= 0; ++finished)
         run_block(j, j->batch, p, (unsigned char *)j->s->rows, block);
     if (finished > 0) atomic_fetch_add_explicit(&j->done, finished, memory_order_acq_rel);
 }
 
 // The others are nearly done too, as a rule: who helped them at once would take lines of memory from them for nothing.
-// Who has waited helps: some may not even have come.
-static void finish_pass(job *j, const fe__pass *p, walk *w)
+// Who has waited helps.
+static void finish_pass(job *j, const fe__pass *p, const walk *w)
 {
     enum { SPINS_BEFORE_HELP = 32, SPINS_BEFORE_YIELD = 2000 }; // one or two microseconds; a tenth of a millisecond
     for (int32_t spins = 0; atomic_load_explicit(&j->done, memory_order_acquire) < w->after; ++spins) {
-        if (spins == SPINS_BEFORE_HELP) run_blocks(j, p, w, j->shares.count);
+        if (spins == SPINS_BEFORE_HELP) run_blocks(j, p, w, FE__ALL_SHARES);
         if (spins < SPINS_BEFORE_YIELD)
             fe__pause();
         else
@@ -453,13 +453,14 @@ static void finish_pass(job *j, const fe__pass *p, walk *w)
 static void run_large_batch(void *argument, int32_t index)
 {
     job *j = argument;
-    int32_t worker = fe__shares_join(&j->shares), count = pass_count(&j->program);
-    walk w = {.pass = 0, .after = 0};
+    int32_t count = pass_count(&j->program);
+    walk w = {.worker = fe__shares_join(&j->shares)};
     (void)index;
     for (int32_t i = 0; i < count; ++i) {
         const fe__pass *p = pass_at(&j->program, i);
-        w = (walk){fe__claims_of(worker), w.pass + 1, w.after + (uint64_t)p->blocks};
-        run_blocks(j, p, &w, 1);
+        w.pass += 1;
+        w.after += (uint64_t)p->blocks;
+        run_blocks(j, p, &w, FE__OWN_SHARES);
         finish_pass(j, p, &w);
     }
 }

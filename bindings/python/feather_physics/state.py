@@ -16,6 +16,9 @@ class State:
         self._capsule = capsule
         self._kept = kept  # the store of its assets
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a State is no bytes: pickle the world, or world.save()")
+
     def close(self) -> None:
         """Gives its memory back. What uses it afterwards is a StaleHandleError."""
         _flat.state_destroy(self._capsule)
