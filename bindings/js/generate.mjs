@@ -17,26 +17,12 @@ fe_world_add_forces fe_world_hash fe_world_draw_lines fe_world_draw_triangles fe
 fe_world_draw_instances fe_history_create fe_history_destroy fe_history_keep fe_history_restore fe_history_get_frames
 fe_recorder_create fe_recorder_read fe_recorder_note fe_recorder_destroy fe_player_create fe_player_feed fe_player_step
 fe_player_seek fe_player_get_world fe_player_release fe_player_get_info fe_player_get_notes fe_player_get_divergence
-fe_player_destroy fe_snapshot_compare
+fe_player_destroy fe_snapshot_compare fe_world_clone fe_state_create fe_state_destroy fe_world_set_state fe_batch_create
+fe_batch_destroy fe_batch_get_world fe_batch_bind fe_batch_step fe_batch_reset fe_batch_read fe_batch_write fe_batch_hash
 fe_version fe_last_error fe_result_name`.split(/\s+/);
 export const LEFT_OUT = {
     fe_pool_create: 'feather-physics/threads has one for all worlds', fe_pool_destroy: 'feather-physics/threads has one for all worlds',
     fe_allocator_init: 'memory is the module\'s own', fe_task_system_init: 'workers have no callbacks of the page',
-    fe_world_clone: 'many worlds at once are for hosts in C',
-    fe_state_create: 'many worlds at once are for hosts in C',
-    fe_state_destroy: 'many worlds at once are for hosts in C',
-    fe_world_set_state: 'many worlds at once are for hosts in C',
-    fe_batch_def_init: 'many worlds at once are for hosts in C',
-    fe_batch_create: 'many worlds at once are for hosts in C',
-    fe_batch_destroy: 'many worlds at once are for hosts in C',
-    fe_batch_get_world: 'many worlds at once are for hosts in C',
-    fe_array_init: 'many worlds at once are for hosts in C',
-    fe_batch_bind: 'many worlds at once are for hosts in C',
-    fe_batch_step: 'many worlds at once are for hosts in C',
-    fe_batch_reset: 'many worlds at once are for hosts in C',
-    fe_batch_read: 'many worlds at once are for hosts in C',
-    fe_batch_write: 'many worlds at once are for hosts in C',
-    fe_batch_hash: 'many worlds at once are for hosts in C',
     fe_world_get_joint_coordinates: 'joints are read and driven one by one',
     fe_world_get_joint_reactions: 'joints are read and driven one by one',
     fe_world_set_joint_targets: 'joints are read and driven one by one',
@@ -426,7 +412,7 @@ for (const f of functions) {
     if (!call(f)) missing.push(f.name);
 }
 if (process.argv[3] === '--missing') {
-    const hand = ['hand', 'player', 'recorder', 'runtime'].map((name) => readFileSync(new URL(`src/${name}.js`, import.meta.url), 'utf8')).join('');
+    const hand = ['batch', 'hand', 'player', 'recorder', 'runtime'].map((name) => readFileSync(new URL(`src/${name}.js`, import.meta.url), 'utf8')).join('');
     for (const name of HAND) if (!hand.includes(`x.${name}(`)) missing.push(name);
     const known = new Set(functions.map((f) => f.name));
     for (const name of [...HAND, ...Object.keys(LEFT_OUT)]) if (!known.has(name)) missing.push(`${name}, which the header lacks`);
@@ -434,7 +420,7 @@ if (process.argv[3] === '--missing') {
     process.exit(missing.length ? 1 : 0);
 }
 
-for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_history_def', 'fe_recorder_def', 'fe_player_def']) { table(t); inTypes.add(t); }
+for (const t of ['fe_world_def', 'fe_body_def', 'fe_shape_def', 'fe_geometry', 'fe_store_def', 'fe_heightfield_def', 'fe_hull_def', 'fe_mesh_def', 'fe_compound_part', 'fe_material', 'fe_transform', 'fe_query_filter', 'fe_save_options', 'fe_restore_options', 'fe_draw_options', 'fe_ray', 'fe_path', 'fe_history_def', 'fe_recorder_def', 'fe_player_def', 'fe_batch_def']) { table(t); inTypes.add(t); }
 for (const t of sized) if (!emittedTables.has(t)) tables.push(`export const ${tableName(t)} = [${records[t].size}, ${starter(t)}, {}];`);
 for (const t of ['fe_hit', 'fe_snapshot_info', 'fe_transform', 'fe_draw_vertex', 'fe_draw_instance', 'fe_history_frame', 'fe_player_info', 'fe_note', 'fe_divergence', 'fe_difference']) { reader(t); outTypes.add(t); }
 const readers = [...emittedReaders].map((type) => `export const read${pascal(type)} = ${isRare(type) ? `(a) => get(${tableName(type)}, a)` : readerOf(type)};`);
@@ -461,7 +447,7 @@ import { x, f32, f64, i32, u32, u64, scratch, ok, yes, reset, temp, num, int, ui
 const i64of = (a) => BigInt.asIntN(64, u64[a >> 3]);
 export const made = {};
 export const HIT_BYTES = ${records.fe_hit.size}, VERTEX_BYTES = ${records.fe_draw_vertex.size}, INSTANCE_BYTES = ${records.fe_draw_instance.size};
-export const AT = { store: ${offsetOf('fe_world_def', 'store')}, pool: ${offsetOf('fe_world_def', 'pool')}, playerPool: ${offsetOf('fe_player_def', 'pool')}, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, saveBase: [${offsetOf('fe_save_options', 'base')}, ${offsetOf('fe_save_options', 'base_size')}], restoreBase: [${offsetOf('fe_restore_options', 'base')}, ${offsetOf('fe_restore_options', 'base_size')}], playerStore: ${offsetOf('fe_player_def', 'store')} };
+export const AT = { store: ${offsetOf('fe_world_def', 'store')}, pool: ${offsetOf('fe_world_def', 'pool')}, playerPool: ${offsetOf('fe_player_def', 'pool')}, batchPool: ${offsetOf('fe_batch_def', 'pool')}, array: { bytes: ${records.fe_array.size}, ${['field', 'item_count', 'is_double', 'relative_to', 'origin', 'items', 'data', 'bytes'].map((n) => `${n === 'bytes' ? 'size' : camel(n)}: ${offsetOf('fe_array', n)}`).join(', ')} }, assetCount: ${offsetOf('fe_restore_options', 'asset_count')}, keys: ${offsetOf('fe_restore_options', 'keys')}, assets: ${offsetOf('fe_restore_options', 'assets')}, saveBase: [${offsetOf('fe_save_options', 'base')}, ${offsetOf('fe_save_options', 'base_size')}], restoreBase: [${offsetOf('fe_restore_options', 'base')}, ${offsetOf('fe_restore_options', 'base_size')}], playerStore: ${offsetOf('fe_player_def', 'store')} };
 export const NOTE_BYTES = ${records.fe_note.size};
 export const HitLayout = { ${hitLayout.join(', ')} };
 ${constants.join('\n')}

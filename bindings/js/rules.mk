@@ -14,7 +14,8 @@ WASM_COLD_OPT ?= -Oz
 WASM_FEATURES :=
 WASM_LINK := -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--stack-first,-z,stack-size=262144,--export=memory_growths
 # Debian's wasi-libc knows no atomics: the linker is told that it may do without. What of it the library calls keeps
-# nothing between calls, but malloc: workers do not call it. Bytes of memory: as thread.js and threads.js have them.
+# nothing between calls, but malloc, which core/aligned.c locks; the host calls it while no worker runs. Bytes of memory:
+# as threads.js has them.
 WASM_SHARED := -matomics -mbulk-memory -ftls-model=local-exec
 WASM_SHARED_LINK := -Wl,--import-memory,--shared-memory,--initial-memory=4194304,--max-memory=1073741824,--no-check-features \
     -Wl,--export=__stack_pointer,--export=__wasm_init_tls

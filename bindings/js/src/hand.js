@@ -1,8 +1,9 @@
 // hand.js - worlds, bodies, shapes, joints and assets as objects; arrays that lie in the module's memory.
 import { x, pool, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, dead, free, dispose, FeatherError } from './runtime.js';
 import { Recorder } from './recorder.js';
+import { Batch, State } from './batch.js';
 import * as api from './api.js';
-const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $difference } = api;
+const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $batch_def, $difference } = api;
 
 // Stores that nobody holds any more but a world that nobody holds either, until that one is gone
 const orphans = new Set();
@@ -330,7 +331,7 @@ export class World extends api.WorldCalls {
     constructor(options) {
         super();
         reset();
-        if (options?._p) this._p = options._p, this._player = options._player; // World.load, Player
+        if (options?._p) this._p = options._p, this._player = options._player, this._batch = options._batch; // World.load...
         else {
             ok(x.fe_world_create(worldDef(scratch + 16, options), scratch));
             this._shared = options?.store; // lives as long
@@ -338,15 +339,16 @@ export class World extends api.WorldCalls {
         }
         this._own(this._player);
     }
-    // From here on the world is the player's, or nobody's but this object's
+    // From here on the world is the player's, its batch's, or nobody's but this object's
     _own(player) {
-        const p = this._p, areas = Object.values(this.#areas);
+        const p = this._p, areas = Object.values(this.#areas), isOwn = !player && !this._batch;
         this._player = player;
         free.unregister(this);
-        free.register(this, () => { if (!player) endWorld(p); areas.forEach((a) => a.end()); }, this);
+        free.register(this, () => { if (isOwn) endWorld(p); areas.forEach((a) => a.end()); }, this);
     }
     _w(changes) {
         if (changes && this._player && this._p) throw new FeatherError('FE_ERROR_STATE', 'the world is a player\'s, to be read: release() hands it over');
+        if (this._batch && !this._batch._p) dead('batch');
         return this._p || dead('world');
     }
     destroy() {
@@ -391,6 +393,24 @@ export class World extends api.WorldCalls {
         reset();
         ok(x.fe_recorder_create(this._w(1), maybe($recorder_def, scratch + 16, options, 'options'), scratch));
         return new Recorder(this, u32[scratch >> 2]);
+    }
+    // Another world that is as this one is; what it is stepped by the options say
+    clone(options) {
+        reset();
+        ok(x.fe_world_clone(this._w(), worldDef(scratch + 16, options), scratch));
+        return new World({ _p: u32[scratch >> 2] });
+    }
+    createState() {
+        ok(x.fe_state_create(this._w(), 0, scratch));
+        return new State(u32[scratch >> 2]);
+    }
+    setState(state) { ok(x.fe_world_set_state(this._w(1), state instanceof State ? state._at() : wrong('state', 'a State', state))); }
+    createBatch(count, options) {
+        reset();
+        const def = make($batch_def, scratch + 16, { ...options, worldCount: int(count, 'count') }, 'options');
+        u32[(def + api.AT.batchPool) >> 2] = pool;
+        ok(x.fe_batch_create(this._w(), def, scratch));
+        return new Batch(this, u32[scratch >> 2], count);
     }
     get store() { return new Store(undefined, this); }
     createHull(options) { return this.store.createHull(options); }

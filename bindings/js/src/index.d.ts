@@ -3,7 +3,7 @@ import {
     Vec3, Quat, Vec3Like, QuatLike, Handle, Hit, Transform, SnapshotInfo, GeometryType, JointType, BodyDefOptions, ShapeDefOptions,
     GeometryOptions, MaterialOptions, HullDefOptions, HeightfieldDefOptions, MeshDefOptions, CompoundPartOptions, TransformOptions,
     PathOptions, QueryFilterOptions, SaveOptionsOptions, RestoreOptionsOptions, StoreDefOptions, WorldDefOptions, DrawOptionsOptions, HistoryDefOptions, HistoryFrame, RecorderDefOptions,
-    PlayerDefOptions, PlayerInfo, Note, Divergence, Difference,
+    PlayerDefOptions, BatchDefOptions, Field, PlayerInfo, Note, Divergence, Difference,
 } from './api.js';
 export * from './api.js';
 
@@ -173,6 +173,12 @@ export class World extends WorldCalls {
     /** The last frames of the world, to go back to. */
     createHistory(options?: HistoryDefOptions | null): History;
     /** Begins a recording; a world has one at most. */
+    /** Another world that is as this one is. */
+    clone(options?: WorldDefOptions | null): World;
+    createState(): State;
+    /** The world becomes what the state is of: this one, a clone, or any that uses the same store. */
+    setState(state: State): void;
+    createBatch(count: number, options?: Omit<BatchDefOptions, 'worldCount'> | null): Batch;
     createRecorder(options?: RecorderDefOptions | null): Recorder;
     readonly store: Store;
     createHull(options: HullDefOptions | ArrayLike<number>): Hull;
@@ -208,6 +214,53 @@ export function version(): string;
 /** The last refusal, in a sentence. */
 export function lastError(): string;
 
+/** A world as it was, to go back to in the time of a copy: world.setState(state). It belongs to no world. */
+export class State {
+    private constructor();
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
+/** Numbers that each step of a batch reads or fills: world by world, item by item. */
+export interface BatchArray {
+    /** A view of the module's memory, good until it grows: ask for it after each step. */
+    readonly values: Float32Array;
+    /** Worlds, items, numbers of one. */
+    readonly shape: readonly [number, number, number];
+    readonly length: number;
+}
+/** What a batch knows of its worlds; see fe_field in feather.h. */
+export type BatchField = Exclude<Field, 'none'>;
+export type Item = Handle<Body> | Handle<Shape> | Handle<Joint>;
+export interface BatchArrayOptions {
+    /** Poses relative to this body, vectors along its axes. */
+    relativeTo?: Handle<Body>;
+    /** Of the world's frame, m: positions are read from there. */
+    origin?: Vec3Like;
+}
+/** Many clones of a world that step together. Its bodies, shapes and joints name those of each of them. */
+export class Batch {
+    private constructor();
+    /** Worlds. */
+    readonly length: number;
+    /** Of the last call: 0 for each world that it went well with, else the negative code. */
+    readonly results: Int32Array;
+    /** World.hash of each. */
+    readonly hashes: string[];
+    /** One of the worlds, for all other calls but destroy(). */
+    world(index: number): World;
+    /** @param mask  which worlds; left out: all. @return how many failed; the others went on */
+    step(dt: number, steps?: number, mask?: ArrayLike<number | boolean> | null): number;
+    /** Back to what the world was when the batch was made, or to a state of each. */
+    reset(mask?: ArrayLike<number | boolean> | null, states?: ArrayLike<State | null | undefined> | null): number;
+    read(field: BatchField, items?: ArrayLike<Item> | null, options?: BatchArrayOptions, into?: Float32Array): Float32Array;
+    write(field: BatchField, items: ArrayLike<Item> | null, numbers: ArrayLike<number>, mask?: ArrayLike<number | boolean> | null): number;
+    /** What you write into its values acts in each step; poses, velocities, masses, frictions and gravity begin as they are. */
+    input(field: BatchField, items?: ArrayLike<Item> | null): BatchArray;
+    /** What each step fills. */
+    output(field: BatchField, items?: ArrayLike<Item> | null, options?: BatchArrayOptions): BatchArray;
+    destroy(): void;
+    [Symbol.dispose](): void;
+}
 export type FeatherModule = Omit<typeof import('./index.js'), 'default'>;
 interface Feather {
     (source?: BufferSource | WebAssembly.Module | Response | Promise<BufferSource | WebAssembly.Module | Response>): Promise<FeatherModule>;

@@ -23,7 +23,7 @@ export function makeWorld(feather) {
     taped.createBody().addSphere(1);
     for (let i = 0; i < 9; ++i) taped.step(1 / 60);
     const recording = recorder.read(), player = new feather.Player(recording);
-    return { recorder, recording, player, history, world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
+    return { batch: world.createBatch(2), recorder, recording, player, history, world, ground, floor, body, shape, other, kinematic, joints, hull, heightfield, mesh, compound };
 }
 const RAY = [[0, 9, 0], [0, -20, 0]], BALL = { type: 'sphere', radius: 0.5 }, AT = { position: [0, 1, 0] }, TURN = [0, 1, 0];
 const POINT = [0, 1, 0], AXIS = [0, 0, 1];
@@ -44,7 +44,7 @@ export const CALLS = {
         ['sweepMany', BALL, [{ start: AT, translation: [1, 0, 0] }]], ['overlap', BALL, AT], ['overlapAny', BALL, AT], ['overlapShapes', BALL, AT],
         ['overlapBounds', { lower: [-1, -1, -1], upper: [1, 1, 1] }], ['closestPoint', [0, 5, 0], 9], ['pairEvents'], ['bodyEvents'], ['hitEvents'], ['jointEvents'],
         ['createBody', { type: 'dynamic', position: [9, 9, 9], linearLocks: ['x', 'y'] }], ['createBodies', [{}, { type: 'static' }]], ['destroyBodies', []],
-        ['list', [s.body, s.other.id]], ['createHistory', { frames: 4, bytes: 1e6 }], ['createRecorder', { flags: ['assets', 'fine'], keyframeSteps: 60 }], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
+        ['list', [s.body, s.other.id]], ['createHistory', { frames: 4, bytes: 1e6 }], ['clone'], ['createState'], ['setState', s.world.createState()], ['createBatch', 2, { block: 1 }], ['createRecorder', { flags: ['assets', 'fine'], keyframeSteps: 60 }], ['store'], ['createHull', { points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] }],
         ['createHeightfield', { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0] }], ['createMesh', { vertices: [0, 0, 0, 0, 0, 1, 1, 0, 0], indices: [0, 1, 2] }],
         ['createCompound', [{ geometry: BALL, density: 5 }]], ['hash'], ['getMoved', [0, 0, 0]], ['save', { flags: 0 }], ['drawLines', { parts: ['shapes', 'bounds'] }],
         ['drawTriangles'], ['drawPoints', { parts: 'contacts' }], ['drawInstances', { only: s.body }], ['setGroup'],
@@ -77,6 +77,9 @@ export const CALLS = {
     ],
     recorder: (s) => [['note', 'here', s.body], ['read', new Uint8Array(4096)]],
     player: (s) => [['feed', s.recording.subarray(0, 0)], ['step'], ['seek', 3], ['info'], ['notes'], ['divergence'], ['release']],
+    batch: () => [
+        ['world', 1], ['step', 1 / 60, 2, [1, 0]], ['reset', [1, 0]], ['read', 'gravity'], ['write', 'gravity', null, [0, -9, 0, 0, -9, 0]], ['input', 'gravity'], ['output', 'gravity'], ['hashes'],
+    ],
     history: () => [['keep', 7], ['frames']],
     hull: () => [['isValid'], ['type'], ['key'], ['save'], ['info'], ['vertices'], ['faces'], ['corners']],
     heightfield: () => [['setHeights', 0, 0, 1, 2, [1, 2]], ['getHeights', 0, 0, 2, 2]],

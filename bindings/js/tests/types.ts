@@ -38,6 +38,11 @@ async function play(): Promise<number> {
     // @ts-expect-error: a player reads bytes, not files
     player.feed(text);
     await FromModule(new Uint8Array());
+    const batch = world.createBatch(8, { block: 2 }), drive = batch.input('jointSpeed', [joint]), state = world.clone().createState();
+    drive.values[0] = batch.read('transform', [body], { origin: [0, 0, 0] })[0]! + batch.step(1 / 60, 2, [true, false]);
+    batch.reset(null, [state]), world.setState(state);
+    // @ts-expect-error: no such field
+    batch.read('pose', [body]);
     const { threads, reason, Store } = await WithThreads({ threads: 4 });
     new Store();
     // @ts-expect-error: no reason is no string
