@@ -6,7 +6,7 @@ LUA_SOURCES := $(wildcard bindings/lua/feather/*.lua)
 
 .PHONY: lua test-lua
 lua: $(LUA_VERSIONS:%=$(BUILD)/lua/%/feather/core.so) $(LUA_SOURCES:bindings/lua/%=$(BUILD)/lua/%)
-lua: $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so
+lua: $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so $(BUILD)/lua/library/feather.lua
 
 $(BUILD)/lua/core.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/rows.h bindings/lua/lua.i include/feather.h
 	@mkdir -p $(@D)
@@ -16,6 +16,9 @@ $(BUILD)/lua/%/feather/core.so: $(BUILD)/lua/core.c $(wildcard bindings/lua/*.h)
 	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core $(shell $(PKG_CONFIG) --cflags lua$*) \
 	    $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(BUILD)/lua/feather/%.lua: bindings/lua/feather/%.lua
+	@mkdir -p $(@D)
+	@cp $< $@
+$(BUILD)/lua/library/%.lua: bindings/lua/library/%.lua
 	@mkdir -p $(@D)
 	@cp $< $@
 $(BUILD)/lua/libfeather.so: $(SHARED)
