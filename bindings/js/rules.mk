@@ -10,8 +10,8 @@ NODE ?= node
 WASM_OPT ?= -Os
 WASM_SIMD_OPT ?= -O2
 WASM_COLD_OPT ?= -Oz
-# A step takes up to 18 KB of stack, a query on a sweep through a mesh less; below it the module traps, it does not overwrite.
 WASM_FEATURES :=
+# A step takes up to 18 KB of stack, a query on a sweep through a mesh less; below it the module traps, it does not overwrite.
 WASM_LINK := -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--stack-first,-z,stack-size=262144,--export=memory_growths
 # Debian's wasi-libc knows no atomics: the linker is told that it may do without. What of it the library calls keeps
 # nothing between calls, but malloc, which core/aligned.c locks; the host calls it while no worker runs. Bytes of memory:

@@ -147,8 +147,7 @@ export class Batch {
             throw error;
         }
         this.#held.push(at);
-        const made = entry.array = new BatchArray(at, probe.shape);
-        return made;
+        return (entry.array = new BatchArray(at, probe.shape));
     }
     // What is to be kept begins as it is
     #fill(p, { field, items, at }) {

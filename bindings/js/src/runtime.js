@@ -1,7 +1,7 @@
 // runtime.js - the module's memory, and how numbers, vectors, records and errors cross into it.
 //
-// One instance a thread of the program. Views on the memory are renewed after each call that made it grow: `ok` and `count`, through
-// one of which every call goes, see to that.
+// One instance a thread of the program. Views on the memory are renewed after each call that made it grow: `ok` sees to
+// that, through which every call goes.
 
 import { host, textOf } from './host.js';
 

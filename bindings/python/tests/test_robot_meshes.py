@@ -253,7 +253,12 @@ def test_what_is_not_there_or_of_another_kind(boxes: Path) -> None:
     for mesh, told in (("m", "<geom>: mesh 'm'"), ("n", "there is no mesh 'n'")):
         with pytest.raises(InvalidArgumentError, match=told):
             load_mjcf(flat.format(mesh))
-    for wrong in ('vertex="0 0"', 'vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 1 4"', ""):
+    for wrong in (
+        'vertex="0 0"',
+        'vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 1 4"',
+        'vertex="0 0 0 1 0 0 0 1 0 0 0 1" refquat="0 0 0 0"',
+        "",
+    ):
         with pytest.raises(InvalidArgumentError):
             load_mjcf(flat.replace('vertex="0 0 0 1 0 0 0 1 0 1 1 0"', wrong).format("m"))
 
