@@ -16,7 +16,8 @@
 #define TABLE(simd, lanes, name, ...)                                                                                 \
     {                                                                                                                 \
         simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, {__VA_ARGS__}, &fe__body_kernels_##name, \
-            fe__recycle_##name, fe__keep_due_##name, fe__meet_course_##name, THIN(contact_kernels)                    \
+            fe__recycle_##name, fe__keep_due_##name, fe__meet_course_##name, THIN(contact_kernels),                   \
+            THIN(joint_kernels)                                                                                       \
     }
 
 #ifndef FE_WITHOUT_PLAIN

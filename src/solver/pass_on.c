@@ -61,7 +61,7 @@ static const fe__group *group_of(const chain *k, int32_t lane)
 
 static const fe__contact_kernels *kernels_of(const chain *k, const fe__group *g)
 {
-    return g->width == k->kernels->width ? k->kernels->contact : k->kernels->thin;
+    return fe__contact_kernels_of(k->kernels, g->width);
 }
 
 static int32_t row_end(const chain *k, int32_t lane)

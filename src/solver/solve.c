@@ -234,7 +234,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
 static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
                        const fe__step_constants *c)
 {
-    const fe__joint_kernel *k = j->k->joint->of + (g->kind - FE__ROW_KINDS);
+    const fe__joint_kernel *k = fe__joint_kernels_of(j->k, g->width)->of + (g->kind - FE__ROW_KINDS);
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size;
     const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
@@ -267,7 +267,6 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
 {
     const fe__tree_job trees = {.solver = j->s,
                                 .bodies = j->bodies,
-                                .lanes = &j->k->joint->locks,
                                 .joints = j->joints,
                                 .trees = j->s->trees + g->lane,
                                 .count = g->trees,
@@ -313,7 +312,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         run_joints(j, g, verb, rows, first, count, c);
         return;
     }
-    const fe__contact_kernels *k = g->width == j->k->width ? j->k->contact : j->k->thin;
+    const fe__contact_kernels *k = fe__contact_kernels_of(j->k, g->width);
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size[g->kind];
     const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {

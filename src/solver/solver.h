@@ -391,9 +391,20 @@ typedef struct fe__kernels {
     fe__recycle_kernel *recycle;
     fe__due_kernel *keep_due;
     fe__course_kernel *meet_course;
-    // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
-    const fe__contact_kernels *thin;
+    // of FE__THIN_WIDTH lanes, for groups of no more contacts or joints: the same bits from less memory
+    const fe__contact_kernels *thin_contact;
+    const fe__joint_kernels *thin_joint;
 } fe__kernels;
+
+// of a group's width
+static inline const fe__contact_kernels *fe__contact_kernels_of(const fe__kernels *kernels, int32_t width)
+{
+    return width == kernels->width ? kernels->contact : kernels->thin_contact;
+}
+static inline const fe__joint_kernels *fe__joint_kernels_of(const fe__kernels *kernels, int32_t width)
+{
+    return width == kernels->width ? kernels->joint : kernels->thin_joint;
+}
 
 // the narrowest for so many trees, or the widest there is
 static inline const fe__forest_kernels *fe__forest_kernels_of(const fe__kernels *kernels, int32_t trees)

@@ -110,7 +110,7 @@ static fe__group *open_contacts(fe__builder *b, fe__batch *batch, int32_t colour
     like.width = thin ? FE__THIN_WIDTH : b->width;
     if (!thin) return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
     // a wide row may come next
-    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin->row_size[kind]));
+    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin_contact->row_size[kind]));
 }
 
 // contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation

@@ -14,9 +14,13 @@ static int32_t joint_key(int32_t part, const fe__joint *j)
 static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int32_t lanes, const fe__kernels *kernels)
 {
     int32_t colour = key / FE__SIDES, part = colour / (FE__JOINT_COLOURS + 1);
-    fe__group like = {.width = b->width, .kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
+    fe__group like = {.kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
     like.alone = colour % (FE__JOINT_COLOURS + 1) == FE__JOINT_OVERFLOW;
-    return fe__open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
+    int32_t thin = lanes <= FE__THIN_WIDTH && b->width > FE__THIN_WIDTH;
+    like.width = thin ? FE__THIN_WIDTH : b->width;
+    if (!thin) return fe__open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
+    // a wide row may come next
+    return fe__open_group(b, batch, like, lanes, (int32_t)fe__whole_blocks(kernels->thin_joint->of[part].row_size));
 }
 
 static fe__lane joint_lane(const fe__builder *b, int32_t joint)
@@ -116,9 +120,11 @@ static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t g
     const fe__group *g = b->s->groups + group;
     fe__tree_place *p = b->s->places + link;
     if (!((FE__LOCKS | 1 << FE__PART_DISTANCE) >> part & 1)) return;
+    const fe__joint_kernels *width = fe__joint_kernels_of(kernels, g->width);
+    p->lock[p->locks].of = &width->locks;
     p->lock[p->locks].part = part;
-    p->lock[p->locks].lane = (lane - g->lane) % b->width;
-    p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;
+    p->lock[p->locks].lane = (lane - g->lane) % g->width;
+    p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / g->width) * width->of[part].row_size;
 }
 
 static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)

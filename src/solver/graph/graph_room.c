@@ -57,17 +57,11 @@ static int32_t joint_group_bound(const fe__graph_bound *b)
            FE__SIDES;
 }
 
-static int64_t joint_row_bound(const fe__graph_bound *b, int32_t lanes, int32_t width)
-{
-    int64_t rows = lanes / width + fe__mini(joint_group_bound(b), lanes) + fe__mini(overflowing_rows(b), lanes);
-    return rows < lanes ? rows : lanes;
-}
-
-static int64_t widest_joint(const fe__graph_bound *b, const fe__kernels *kernels)
+static int64_t widest_joint(const fe__graph_bound *b, const fe__joint_kernels *kernels)
 {
     int32_t widest = 0;
     for (int32_t part = 0; b->joint_set && part < FE__PARTS; ++part)
-        if (b->joint_set->row_kinds >> part & 1) widest = fe__maxi(widest, kernels->joint->of[part].row_size);
+        if (b->joint_set->row_kinds >> part & 1) widest = fe__maxi(widest, kernels->of[part].row_size);
     return widest;
 }
 
@@ -75,7 +69,7 @@ static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->j
 
 static int64_t thin_row(const fe__kernels *kernels, int32_t kind)
 {
-    return fe__whole_blocks(kernels->thin->row_size[kind]);
+    return fe__whole_blocks(kernels->thin_contact->row_size[kind]);
 }
 
 // Rows of so many contacts in so many groups, each of which may leave W - 1 lanes of a row empty
@@ -120,13 +114,21 @@ static int64_t contact_bytes(const fe__solver *s, const fe__graph_bound *b, cons
     return fe__minl(fe__minl(wide, thin) + overflow * thin_row(kernels, widest), all_contact_bytes(s, b, kernels));
 }
 
+// Of so many parts of joints in one batch. As of contacts, none takes more than a thin row
+static int64_t joint_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t lanes)
+{
+    int64_t thin = fe__whole_blocks(widest_joint(b, kernels->thin_joint)),
+            wide = fe__maxl(widest_joint(b, kernels->joint), thin), groups = fe__mini(joint_group_bound(b), lanes),
+            overflow = fe__mini(overflowing_rows(b), lanes);
+    return fe__minl((lanes / kernels->width + groups) * wide + overflow * thin, lanes * thin);
+}
+
 // bytes of rows of so many contacts and parts of joints; each body is in one tree at most
 static int64_t row_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts,
                          int32_t joint_lanes, int64_t bodies)
 {
     int64_t links = fe__minl(tree_links(b), bodies);
-    return contact_bytes(s, b, kernels, contacts) +
-           joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
+    return contact_bytes(s, b, kernels, contacts) + joint_bytes(b, kernels, joint_lanes) +
            links * (fe__forest_bytes(fe__forest_kernels_of(kernels, INT32_MAX), 1) + (int64_t)sizeof(fe__row_block));
 }
 
@@ -177,7 +179,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t joint_groups = fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b);
     int64_t groups = contact_groups + joint_groups + tree_links(b);
     int64_t lanes = fe__minl(b->contacts + (width - 1) * contact_groups, (int64_t)FE__THIN_WIDTH * b->contacts) +
-                    fe__minl(parts + (width - 1) * joint_groups, (int64_t)width * parts);
+                    fe__minl(parts + (width - 1) * joint_groups, (int64_t)FE__THIN_WIDTH * parts);
     // a batch has one copy of each kinematic body, which a contact or a joint of it brings
     int64_t copies = fe__minl((int64_t)b->kinematic * batches,
                               (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0));

@@ -23,6 +23,13 @@
         sizeof(form##_row), prepare_##name, solve_##form, relax_##name, store_##name \
     }
 
+#define LOCKS                                                                                                 \
+    {                                                                                                         \
+        FE_W, offsetof(point_row, impulse) / sizeof(float),                                                   \
+            (offsetof(point_row, total) - offsetof(point_row, impulse)) / sizeof(float), read_lock, add_lock, \
+            take_lock, forbidden_gap, forbidden_speed                                                         \
+    }
+
 const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                           {
                                                               [FE__PART_X] = KERNELS(x, linear),
@@ -39,6 +46,4 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .locks = {FE_W, offsetof(point_row, impulse),
-                                                                offsetof(point_row, total), read_lock, add_lock,
-                                                                take_lock, is_open, opens}};
+                                                      .locks = LOCKS};

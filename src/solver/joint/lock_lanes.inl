@@ -185,8 +185,8 @@ static float rod_speed(const linear_row *row, int32_t i, const fe__velocity_line
 }
 
 // Of B's point against A's along what the lock forbids, squared
-FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const fe__velocity_line *a,
-                                const fe__velocity_line *b)
+static float forbidden_speed(int32_t part, const void *row, int32_t i, const fe__velocity_line *a,
+                             const fe__velocity_line *b)
 {
     const point_row *point = row;
     const slide_row *slide = row;
@@ -201,7 +201,7 @@ FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const 
 }
 
 // how far they are apart along it, squared
-FE_INLINE float forbidden_gap(int32_t part, const void *row, int32_t i)
+static float forbidden_gap(int32_t part, const void *row, int32_t i)
 {
     const linear_row *rod = row;
     fe_vec3 gap = {0.0f, 0.0f, 0.0f};
@@ -209,26 +209,4 @@ FE_INLINE float forbidden_gap(int32_t part, const void *row, int32_t i)
     if (part == FE__PART_SLIDE) gap = lane_of(((const slide_row *)row)->error, i);
     if (part == FE__PART_DISTANCE) gap.x = rod->f.x[i] - rod->f.low[i];
     return fe__dot(gap, gap);
-}
-
-static int32_t is_open(const fe__tree_place *places, int32_t count, const unsigned char *rows, float gap)
-{
-    for (const fe__tree_place *p = places; p < places + count; ++p)
-        for (int32_t k = 0; k < p->locks; ++k)
-            if (forbidden_gap(p->lock[k].part, rows + p->lock[k].row, p->lock[k].lane) > gap * gap) return 1;
-    return 0;
-}
-
-static int32_t opens(const fe__solver *s, const fe__tree_link *links, const fe__tree_place *places, int32_t count,
-                     const unsigned char *rows, float speed)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        const fe__tree_place *p = places + i;
-        const fe__velocity_line *below = s->velocity + p->line, *above = s->velocity + p->parent_line;
-        const fe__velocity_line *a = links[i].holds_b ? above : below, *b = links[i].holds_b ? below : above;
-        for (int32_t k = 0; k < p->locks; ++k)
-            if (forbidden_speed(p->lock[k].part, rows + p->lock[k].row, p->lock[k].lane, a, b) > speed * speed)
-                return 1;
-    }
-    return 0;
 }

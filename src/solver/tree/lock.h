@@ -1,7 +1,7 @@
 // lock.h - what the trees read of a lock and write to it: a lane of the sweep's rows, in scalars.
 //
-// Rows are as wide as the SIMD set, so each set has its own functions for them (joint/lock_lanes.inl). The tree solver
-// is compiled once, and reaches its rows through these.
+// Rows are as wide as the SIMD set, or thin: each width has its own functions for them (joint/lock_lanes.inl). The
+// locks of one tree may lie in rows of both.
 #ifndef FE_SOLVER_TREE_LOCK_H
 #define FE_SOLVER_TREE_LOCK_H
 #include "core/math.h"
@@ -14,8 +14,9 @@ typedef struct fe__tree_place {
     int32_t line, parent_line; // of the body, of the joint's other end
     int32_t locks;
     struct {
-        int32_t part, lane; // FE__PART_*; its lane in the row
-        int64_t row;        // bytes into the batch's row memory
+        const struct fe__lock_lanes *of; // of the row's width
+        int32_t part, lane;              // FE__PART_*; its lane in the row
+        int64_t row;                     // bytes into the batch's row memory
     } lock[FE__MOST_LOCKS];
 } fe__tree_place;
 
@@ -32,24 +33,23 @@ typedef struct fe__lock {
     float impulse[3];       // POINT: world; SLIDE: along the frame's axes; DISTANCE: along the rod; N s
 } fe__lock;
 
-struct fe__solver;
+struct fe__velocity_line;
 
 // `row` and `lane` as in fe__tree_place
 typedef struct fe__lock_lanes {
     int32_t width; // lanes of a row
-    // from a row of POINT to the x of its impulses, and of their sums over the step, bytes; y and z follow, a row of
-    // lanes each
-    int32_t point_impulse, point_total;
+    // from a row of POINT to the x of its impulses, and from there to that of their sums over the step, in floats; y
+    // and z follow, a row of lanes each
+    int32_t point_impulse, point_sum;
     void (*read)(int32_t part, const void *row, int32_t lane, fe__lock *out_lock);
     // Adds impulses in the order of the lock's rows, with `total` to the sum over the step too. Returns how many.
     int32_t (*add)(int32_t part, void *row, int32_t lane, const double *impulse, int32_t total);
     // Moves the impulses to `impulse` and leaves none. Returns how many.
     int32_t (*take)(int32_t part, void *row, int32_t lane, double *impulse);
-    // 1: a lock of these links is open by more than `gap`, m
-    int32_t (*is_open)(const fe__tree_place *places, int32_t count, const unsigned char *rows, float gap);
-    // 1: the points of a lock come apart faster than `speed`, m/s
-    int32_t (*opens)(const struct fe__solver *s, const fe__tree_link *links, const fe__tree_place *places,
-                     int32_t count, const unsigned char *rows, float speed);
+    // squares: by how much the lock is open, m2; how fast its points come apart, (m/s)2, by the velocities of both ends
+    float (*gap)(int32_t part, const void *row, int32_t lane);
+    float (*speed)(int32_t part, const void *row, int32_t lane, const struct fe__velocity_line *a,
+                   const struct fe__velocity_line *b);
 } fe__lock_lanes;
 
 #endif

@@ -50,6 +50,7 @@ typedef struct tree_node {
     line_names line, line_above; // of the bodies below and above
     // Of a ball joint, in each lane: to the x of its impulse in the rows, bytes
     _Alignas(8 * LANES) int64_t point[LANES];
+    int32_t width[LANES], sum[LANES];          // floats from there to its y, and to the x of its sum over the step
     half inverse_mass, locks;                  // as the lines of the velocities have them
     real3 first_below, first_above, first_gap; // arms from the centres to a ball joint's point, m
     real_sym first_inertia, first_inverse;     // about the centre, kg m2 and its inverse

@@ -18,7 +18,7 @@ FE_INLINE fe_dvec3 get_lane3(const real3 *a, int lane)
 
 static void read_lock(const pass *t, const fe__tree_place *p, int32_t k, fe__lock *out)
 {
-    t->job->lanes->read(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, out);
+    p->lock[k].of->read(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, out);
 }
 
 // of its moments about axes that are not locked
@@ -111,7 +111,9 @@ static void load_lane(const pass *t, int32_t i, int lane)
         load_record(t, i, lane);
         return;
     }
-    n->point[lane] = p->lock[0].row + t->job->lanes->point_impulse + p->lock[0].lane * (int64_t)sizeof(float);
+    const fe__lock_lanes *of = p->lock[0].of;
+    n->point[lane] = p->lock[0].row + (of->point_impulse + p->lock[0].lane) * (int64_t)sizeof(float);
+    n->width[lane] = of->width, n->sum[lane] = of->point_sum;
     load_ball(t, i, lane);
 }
 
@@ -159,10 +161,9 @@ FE_INLINE pose pose_of(const pass *t, const line_names *line)
 // what the rows hold
 FE_INLINE real3 impulse_of_point(const pass *t, const tree_node *n)
 {
-    const int32_t width = t->job->lanes->width;
     half l[3];
     for (int k = 0; k < 3; ++k) {
-#define LANE(i) point_of(t, n, i)[k * width]
+#define LANE(i) point_of(t, n, i)[k * n->width[i]]
         l[k] = (half)PER_LANE_(LANE);
 #undef LANE
     }

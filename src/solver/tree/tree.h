@@ -19,7 +19,6 @@
 typedef struct fe__tree_job {
     fe__solver *solver;
     const fe__body *bodies;
-    const fe__lock_lanes *lanes;
     const fe__joints *joints;
     const int32_t *trees; // of the forest
     int32_t count;

@@ -346,7 +346,11 @@ static void engage(const pass *t, int32_t lanes)
 
 static int32_t is_open(const pass *t, int lane, float gap)
 {
-    return t->job->lanes->is_open(t->places[lane], t->count, t->job->rows, gap);
+    for (const fe__tree_place *p = t->places[lane], *end = p + t->count; p < end; ++p)
+        for (int32_t k = 0; k < p->locks; ++k)
+            if (p->lock[k].of->gap(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane) > gap * gap)
+                return 1;
+    return 0;
 }
 
 // Of trees that were solved, the lanes in which a joint's points come apart as fast as `will_open` says
@@ -367,8 +371,17 @@ static int32_t come_apart(const pass *t)
 // by the velocities as they are
 static int32_t will_open(const pass *t, int lane)
 {
-    return t->job->lanes->opens(t->solver, t->links_of[lane], t->places[lane], t->count, t->job->rows,
-                                OPEN / (float)t->job->h);
+    const float speed = OPEN / (float)t->job->h;
+    for (int32_t i = 0; i < t->count; ++i) {
+        const fe__tree_place *p = t->places[lane] + i;
+        const fe__velocity_line *below = t->solver->velocity + p->line, *above = t->solver->velocity + p->parent_line;
+        const int32_t b = t->links_of[lane][i].holds_b;
+        for (int32_t k = 0; k < p->locks; ++k)
+            if (p->lock[k].of->speed(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, b ? above : below,
+                                     b ? below : above) > speed * speed)
+                return 1;
+    }
+    return 0;
 }
 
 // The lanes whose links contacts see with the masses of their trees

@@ -50,7 +50,7 @@ static void add_impulses(const pass *t, int32_t i, int lane, int32_t total)
         const int32_t count = row_axes(t, i, lane, p->lock[k].part, axis);
         for (int32_t r = 0; r < count; ++r)
             l[r] = 0.0 + fe__ddot(axis[r], is_rotation(p->lock[k].part) ? on_b.w : on_b.v);
-        t->job->lanes->add(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l, total);
+        p->lock[k].of->add(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l, total);
     }
 }
 
@@ -65,7 +65,7 @@ static wrench take_impulses(const pass *t, int32_t i, int lane)
         fe_dvec3 axis[3];
         const int32_t count = row_axes(t, i, lane, p->lock[k].part, axis);
         fe_dvec3 *to = is_rotation(p->lock[k].part) ? &sum.w : &sum.v;
-        t->job->lanes->take(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l);
+        p->lock[k].of->take(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l);
         for (int32_t r = 0; r < count; ++r) *to = fe__dadd(*to, fe__dscale(sign * l[r], axis[r]));
     }
     return sum;
@@ -74,15 +74,14 @@ static wrench take_impulses(const pass *t, int32_t i, int lane)
 // ---- of a ball joint, all lanes at once -----------------------------------------------------------------------------
 static void add_to_point(const pass *t, const tree_node *n, int32_t lanes, int32_t total)
 {
-    const fe__lock_lanes *rows = t->job->lanes;
-    const int32_t sum = (rows->point_total - rows->point_impulse) / (int32_t)sizeof(float);
     half l[3];
     narrow3(l, r_scale(n->side, n->impulse_v));
     for (int lane = 0; lane < LANES; ++lane) {
         if (!(lanes >> lane & 1)) continue;
         float *at = point_of(t, n, lane);
-        for (int k = 0; k < 3; ++k) at[k * rows->width] += l[k][lane];
-        for (int k = 0; k < 3 && total; ++k) at[sum + k * rows->width] += l[k][lane];
+        const int32_t width = n->width[lane], sum = n->sum[lane];
+        for (int k = 0; k < 3; ++k) at[k * width] += l[k][lane];
+        for (int k = 0; k < 3 && total; ++k) at[sum + k * width] += l[k][lane];
     }
 }
 
@@ -91,7 +90,7 @@ static real3 take_from_point(const pass *t, const tree_node *n, int32_t lanes)
 {
     const real3 l = r_choose3(r_mask(lanes), impulse_of_point(t, n), r_zero3());
     for (int lane = 0; lane < LANES; ++lane)
-        for (int k = 0; k < 3 && lanes >> lane & 1; ++k) point_of(t, n, lane)[k * t->job->lanes->width] = 0.0f;
+        for (int k = 0; k < 3 && lanes >> lane & 1; ++k) point_of(t, n, lane)[k * n->width[lane]] = 0.0f;
     return l;
 }
 
