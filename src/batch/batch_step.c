@@ -170,7 +170,8 @@ static void make_steps(const job *j, int32_t world, int32_t worker)
 {
     fe_batch *b = j->batch;
     fe_world *w = b->worlds[world];
-    kept_forces kept = {b->bound.kept + worker * b->bound.kept_of_worker, 0};
+    kept_forces kept = {.count = 0};
+    if (b->bound.kept) kept.first = b->bound.kept + worker * b->bound.kept_of_worker;
     int32_t whole = 1;
     for (int32_t i = 0; i < j->steps && whole; ++i) {
         whole = write_inputs(b, world, i == 0, &kept);

@@ -66,22 +66,27 @@ static int32_t take_scalar(int32_t part, void *row, int32_t lane, double *impuls
     return rows_of(part);
 }
 
-static int32_t says_open(const fe__tree_place *places, int32_t count, const unsigned char *rows, float gap)
+static float wide_open(int32_t part, const void *row, int32_t lane)
 {
-    (void)places, (void)count, (void)rows, (void)gap;
-    return the.opens;
+    (void)part, (void)row, (void)lane;
+    return the.opens ? FLT_MAX : 0.0f;
 }
 
-static int32_t says_opens(const fe__solver *s, const fe__tree_link *links, const fe__tree_place *places, int32_t count,
-                          const unsigned char *rows, float speed)
+static float opening(int32_t part, const void *row, int32_t lane, const fe__velocity_line *a,
+                     const fe__velocity_line *b)
 {
-    (void)s, (void)links, (void)places, (void)count, (void)rows, (void)speed;
-    return the.opens;
+    (void)a, (void)b;
+    return wide_open(part, row, lane);
 }
 
-static const fe__lock_lanes lanes = {
-    FE_W,      offsetof(lock_row, impulse), offsetof(lock_row, total), read_scalar, add_scalar, take_scalar, says_open,
-    says_opens};
+static const fe__lock_lanes lanes = {FE_W,
+                                     offsetof(lock_row, impulse) / sizeof(float),
+                                     (offsetof(lock_row, total) - offsetof(lock_row, impulse)) / sizeof(float),
+                                     read_scalar,
+                                     add_scalar,
+                                     take_scalar,
+                                     wide_open,
+                                     opening};
 
 static double any(double low, double high)
 {
@@ -111,7 +116,6 @@ static void begin(uint32_t seed)
     the.tree.kind = FE__TREE_HEAVY;
     the.job = (fe__tree_job){.solver = &the.solver,
                              .bodies = the.bodies,
-                             .lanes = &lanes,
                              .joints = &the.joints,
                              .trees = the.trees,
                              .count = 1,
@@ -148,6 +152,7 @@ static fe__lock *add_link(int32_t parent, int32_t holds_b, int32_t part, float m
     the.links[i] =
         (fe__tree_link){.body = line, .joint = line, .parent = parent, .holds_b = holds_b, .form = form_of(part)};
     the.places[i] = (fe__tree_place){.line = line, .parent_line = above, .locks = 1};
+    the.places[i].lock[0].of = &lanes;
     the.places[i].lock[0].part = part;
     the.places[i].lock[0].row = (int64_t)((unsigned char *)lock - (unsigned char *)the.locks);
     lock->line_a = holds_b ? above : line, lock->line_b = holds_b ? line : above;
