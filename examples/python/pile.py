@@ -5,12 +5,10 @@ python3 pile.py [picture]
 
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Circle, Polygon
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Ellipse, Polygon
 
 from feather_physics import World
 
@@ -33,11 +31,13 @@ with World(workers=2) as world:
     speed = np.linalg.norm(np.asarray(world.velocities(bodies=bodies))[:, :3], axis=1)
     print(f"{COUNT} bodies, the highest at {poses[:, 1].max():.2f} m, the fastest at {speed.max():.3f} m/s")
 
-figure, axes = plt.subplots(figsize=(6, 6))
+figure = Figure(figsize=(6, 6))
+axes = Axes(figure, (0.1, 0.1, 0.85, 0.85))
+figure.add_axes(axes)
 corners = np.array([[-0.45, -0.3], [0.45, -0.3], [0.45, 0.3], [-0.45, 0.3]])
 for i, (x, y, _, _, _, qz, qw) in enumerate(poses):
     if i % 2:
-        axes.add_patch(Circle((x, y), 0.4, facecolor="tab:blue", edgecolor="black"))
+        axes.add_patch(Ellipse((x, y), 0.8, 0.8, facecolor="tab:blue", edgecolor="black"))
     else:
         angle = 2 * np.arctan2(qz, qw)
         rotation = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
