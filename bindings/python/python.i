@@ -5,6 +5,7 @@
 #include "rows.h"
 
 #include "python/convert.h"
+#include "python/found.h"
 #include "python/batch.h"
 #include "python/picture.h"
 %}
@@ -21,6 +22,10 @@
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
+%native(set_classes) PyObject *flat_set_classes(PyObject *self, PyObject *classes);
+%native(handle_of) PyObject *flat_handle_of(PyObject *self, PyObject *arguments);
+%native(handles_of) PyObject *flat_handles_of(PyObject *self, PyObject *arguments);
+%native(list_of) PyObject *flat_list_of(PyObject *self, PyObject *arguments);
 %native(batch_get_world) PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments);
 %native(batch_end_world) PyObject *flat_batch_end_world(PyObject *self, PyObject *arguments);
 %native(batch_create) PyObject *flat_batch_create(PyObject *self, PyObject *arguments);
@@ -39,6 +44,27 @@ static PyObject *flat_set_error_classes(PyObject *self, PyObject *arguments)
     PyObject *classes;
     (void)self;
     return PyArg_ParseTuple(arguments, "O", &classes) ? set_error_classes(classes) : NULL;
+}
+static PyObject *flat_set_classes(PyObject *self, PyObject *arguments)
+{
+    PyObject *given;
+    (void)self;
+    return PyArg_ParseTuple(arguments, "O", &given) ? set_classes(given) : NULL;
+}
+static PyObject *flat_handle_of(PyObject *self, PyObject *arguments)
+{
+    (void)self;
+    return handle_of(arguments);
+}
+static PyObject *flat_handles_of(PyObject *self, PyObject *arguments)
+{
+    (void)self;
+    return handles_of(arguments);
+}
+static PyObject *flat_list_of(PyObject *self, PyObject *arguments)
+{
+    (void)self;
+    return list_of(arguments);
 }
 static PyObject *flat_keep(PyObject *self, PyObject *arguments)
 {
@@ -409,6 +435,20 @@ FE_GIVE_RECORD(OUT_INFO, result >= 0)
 FE_GIVE_RECORD(OUT_HIT, result > 0)
 FE_OUT_RECORDS
 FE_OUT_HITS
+// What a query finds is an object of the package's own. The World that it is found in goes in, to be its body's.
+%define FE_FINDS(TYPE, PARAMETER, MAKE)
+%typemap(in) TYPE *PARAMETER (TYPE found) "$1 = &found;"
+%typemap(argout) TYPE *PARAMETER %{
+    if (result > 0) {
+        Py_SETREF($result, MAKE(&(place){$input, swig_obj[0]}, $1));
+        if (!$result) SWIG_fail;
+    }
+%}
+%typemap(freearg) TYPE *PARAMETER ""
+%ignore TYPE;
+%enddef
+FE_FINDS(fe_hit, out_hit, from_hit)
+FE_FINDS(fe_closest, out_closest, from_closest)
 // fe_geometry_box and its like return nothing that could fail
 %typemap(argout) fe_geometry *out_geometry %{
     $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj($1, $1_descriptor, SWIG_POINTER_OWN));

@@ -17,7 +17,7 @@ python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/p
 $(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/rows.h bindings/python/python.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
-$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h bindings/python/batch.h bindings/python/picture.h $(PYTHON_PICTURE) $(STATIC)
+$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h bindings/python/found.h bindings/python/batch.h bindings/python/picture.h $(PYTHON_PICTURE) $(STATIC)
 	@mkdir -p $(@D)
 	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(PYTHON_PICTURE) $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%

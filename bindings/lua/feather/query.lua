@@ -4,24 +4,28 @@ local native = require("feather.native")
 local objects = require("feather.objects")
 local options = require("feather.options")
 local shapes = require("feather.shape")
-local core, of, all, handles = native.core, objects.of, objects.all, objects.handles
+local core, of, all, handle, handles = native.core, objects.of, objects.all, objects.handle, objects.handles
 local joint_handles = objects.joint_handles
 local geometry, pose, xyz, xyz2 = shapes.geometry, objects.pose, objects.xyz, objects.xyz2
 local World, Body, Shape = objects.World, objects.Body, objects.Shape
 
 local KNOWN = { mask = true, triggers = true, exclude = true }
 local OF_SWEEPS = { mask = true, triggers = true, exclude = true, turn = true }
+-- Filters go to the core in tables that are used again and again.
+local used, single = {}, {}
 local function filter(world, given, known)
     if given == nil then return nil end
     options.check(given, known or KNOWN, "filter")
-    local excluded = given.exclude
-    if excluded ~= nil then
-        excluded = handles(world, getmetatable(excluded) == Body and { excluded } or excluded)
+    local mask, triggers, excluded = given.mask, given.triggers, given.exclude
+    if getmetatable(excluded) == Body then
+        single[1] = handle(world, excluded, Body)
+        excluded = single
+    elseif excluded ~= nil then
+        excluded = handles(world, excluded)
     end
-    return {
-        mask = given.mask, excluded = excluded,
-        flags = given.triggers ~= nil and options.switch(given.triggers, "triggers") or 0,
-    }
+    used.mask, used.excluded = mask, excluded
+    used.flags = triggers ~= nil and options.switch(triggers, "triggers") or 0
+    return used
 end
 
 -- Takes the values of an fe_hit; nil for a miss.

@@ -119,16 +119,6 @@ class Entity:
         return f"<{type(self).__name__} {self._id:#x}>"
 
 
-def handle_of(world: "World", entity: Any, kind: type) -> int:
-    """The handle of an object, if it is one of this world."""
-    if not isinstance(entity, kind):
-        raise TypeError(f"a {kind.__name__} is needed, not {type(entity).__name__!r}")
-    if entity._world is not world:  # type: ignore[attr-defined]
-        raise InvalidArgumentError(f"{entity!r} belongs to another world")
-    handle: int = entity._id  # type: ignore[attr-defined]
-    return handle
-
-
 class Body(Entity):
     """A rigid body. Positions are m in world space, velocities m/s and rad/s."""
 
@@ -238,12 +228,12 @@ class Body(Entity):
     @property
     def shapes(self) -> List["Shape"]:
         """In the order of creation."""
-        return [Shape(self._world, id) for id in records.read_handles(_flat.body_get_shapes, self._capsule, self._id)]
+        return self._world._list(Shape, records.read_handles(_flat.body_get_shapes, self._capsule, self._id))
 
     @property
     def joints(self) -> List["Joint"]:
         """In the order of creation."""
-        return [Joint(self._world, id) for id in records.read_handles(_flat.body_get_joints, self._capsule, self._id)]
+        return self._world._list(Joint, records.read_handles(_flat.body_get_joints, self._capsule, self._id))
 
     @property
     def contacts(self) -> List[records.Contact]:
@@ -359,11 +349,13 @@ class Body(Entity):
 
     def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
         """Where a segment meets this body, whatever its layers."""
-        return self._world._hit(_flat.body_raycast(self._capsule, self._id, origin, translation))
+        hit: Optional[records.Hit] = _flat.body_raycast(self._capsule, self._id, origin, translation, self._world)
+        return hit
 
     def closest_point(self, point: Vector) -> Optional[records.Closest]:
         """Of its surface; None for a body without shapes."""
-        return self._world._closest(_flat.body_closest_point(self._capsule, self._id, point))
+        found: Optional[records.Closest] = _flat.body_closest_point(self._capsule, self._id, point, self._world)
+        return found
 
     def destroy(self) -> None:
         """Destroys its shapes and joints too; what it touched gets its exit with the next step."""
@@ -469,11 +461,13 @@ class Shape(Entity):
 
     def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
         """Where a segment meets this shape, whatever its layer."""
-        return self._world._hit(_flat.shape_raycast(self._capsule, self._id, origin, translation))
+        hit: Optional[records.Hit] = _flat.shape_raycast(self._capsule, self._id, origin, translation, self._world)
+        return hit
 
     def closest_point(self, point: Vector) -> Optional[records.Closest]:
         """Of its surface."""
-        return self._world._closest(_flat.shape_closest_point(self._capsule, self._id, point))
+        found: Optional[records.Closest] = _flat.shape_closest_point(self._capsule, self._id, point, self._world)
+        return found
 
     def destroy(self) -> None:
         """Its body's mass follows."""
@@ -567,3 +561,7 @@ class Joint(Entity):
         """Its bodies wake, and may collide again from the next step on."""
         _flat.joint_destroy(self._capsule, self._id)
         self._world._user_data.pop(self._id, None)
+
+
+# what queries find is made of these
+_flat.set_classes((Entity, Body, Shape, records.Hit, records.Closest, records.Overlap))

@@ -533,14 +533,17 @@ BODY_TYPES = ("static", "kinematic", "dynamic")
 JOINT_TYPES = {1: "distance", 2: "ball", 3: "hinge", 4: "fixed", 5: "configurable"}
 
 
+def read_packed(read: Callable[..., int], record: Packed, *arguments: Any) -> bytearray:
+    """All records that `read` has to give, as they are packed."""
+    buffer = bytearray(read(*arguments, None) * record.size)
+    if buffer:
+        read(*arguments, buffer)
+    return buffer
+
+
 def read_all(read: Callable[..., int], record: Packed, *arguments: Any) -> List[Tuple[Any, ...]]:
-    """All records that `read` has to give, as plain tuples."""
-    count = read(*arguments, None)
-    if count == 0:
-        return []
-    buffer = bytearray(count * record.size)
-    read(*arguments, buffer)
-    return list(record.iter_unpack(buffer))
+    """The same as plain tuples."""
+    return list(record.iter_unpack(read_packed(read, record, *arguments)))
 
 
 def read_handles(read: Callable[..., int], *arguments: Any) -> "array[int]":

@@ -6,13 +6,13 @@ import os
 import weakref
 from array import array
 from types import TracebackType
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
 
 from . import _flat, picture, records
 from ._flat import Bounds, Vec3
 from .errors import UnsupportedError
 from .history import History
-from .objects import Body, Joint, Shape, handle_of
+from .objects import Body, Joint, Shape
 from .recording import DRAIN_STEPS, Path, Recorder, Recording, begin
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
 from .state import State
@@ -20,10 +20,12 @@ from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
 from .words import SIMD_SETS, body_type, draw_bits, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
+NOBODY: Tuple[Body, ...] = ()
 EVENTS = ("pair", "body", "hit", "joint")
 DRAWN = ("lines", "triangles", "points", "instances")
 ZERO = (0.0, 0.0, 0.0)
 X = (1.0, 0.0, 0.0)
+Found = TypeVar("Found", Body, Shape, Joint, records.Hit, records.Overlap)
 
 
 class Pool:
@@ -440,19 +442,19 @@ class World:
         ]
         ids = array("Q", bytes(8 * len(definitions)))
         _flat.body_create_many(self._capsule, definitions, ids)
-        return [Body(self, id) for id in ids]
+        return self._list(Body, ids)
 
     def destroy_bodies(self, bodies: Any) -> None:
         """All or none: one that is stale or given twice, and none is destroyed."""
         ids = self._ids(bodies)
         _flat.body_destroy_many(self._capsule, ids)
-        for id in memoryview(ids).tolist() if self._user_data else ():
+        for id in memoryview(ids).cast("B").cast("Q") if self._user_data else ():
             self._user_data.pop(id, None)
 
     @property
     def bodies(self) -> List[Body]:
         """All, in the order of creation."""
-        return [Body(self, id) for id in self.body_ids()]
+        return self._list(Body, self.body_ids())
 
     def body_ids(self) -> "array[int]":
         """The handles of all bodies, in the order of creation: what the bulk calls take."""
@@ -461,7 +463,7 @@ class World:
     @property
     def joints(self) -> List[Joint]:
         """All, in the order of creation."""
-        return [Joint(self, id) for id in records.read_handles(_flat.world_get_joints, self._capsule)]
+        return self._list(Joint, records.read_handles(_flat.world_get_joints, self._capsule))
 
     def create_heightfield(self, heights: Any, **options: Any) -> Heightfield:
         """Terrain in this world's store, see Store.create_heightfield()."""
@@ -575,20 +577,22 @@ class World:
     # ---- queries: `mask` says which layers count, `exclude` which bodies do not ----
 
     def raycast(
-        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
     ) -> Optional[records.Hit]:
         """The first body on the segment from origin to origin + translation, or None."""
-        return self._hit(_flat.world_raycast(self._capsule, origin, translation, self._filter(mask, triggers, exclude)))
+        filter = self._filter(mask, triggers, exclude)
+        hit: Optional[records.Hit] = _flat.world_raycast(self._capsule, origin, translation, filter, self)
+        return hit
 
     def raycast_any(
-        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
     ) -> bool:
         """Is anything on the segment?"""
         found: bool = _flat.world_raycast_any(self._capsule, origin, translation, self._filter(mask, triggers, exclude))
         return found
 
     def raycast_all(
-        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
     ) -> List[records.Hit]:
         """Every body on the segment, nearest first."""
         return self._hits(_flat.world_raycast_all, origin, translation, self._filter(mask, triggers, exclude))
@@ -603,14 +607,17 @@ class World:
         turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> Optional[records.Hit]:
         """What a moving form touches first, or None: any but a Plane, Mesh or Heightfield. It turns by the length of
         `turn` (rad) about its direction, at a constant rate; see fe_world_sweep_turning in feather.h."""
         flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        hit: Optional[records.Hit]
         if turn is None:
-            return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
-        return self._hit(_flat.world_sweep_turning(self._capsule, flat, start, translation, turn, filter))
+            hit = _flat.world_sweep(self._capsule, flat, start, translation, filter, self)
+        else:
+            hit = _flat.world_sweep_turning(self._capsule, flat, start, translation, turn, filter, self)
+        return hit
 
     def sweep_any(
         self,
@@ -622,7 +629,7 @@ class World:
         turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> bool:
         """Does it touch anything?"""
         flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
@@ -643,7 +650,7 @@ class World:
         turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> List[records.Hit]:
         """Every body that it touches on its motion, nearest first."""
         flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
@@ -659,12 +666,11 @@ class World:
         rotation: Vector = NO_ROTATION,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> List[Body]:
         """The bodies that a form overlaps, any but a Plane, Mesh or Heightfield, in the order of creation."""
         flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
-        ids = records.read_handles(_flat.world_overlap, self._capsule, flat, at, filter)
-        return [Body(self, id) for id in ids]
+        return self._list(Body, records.read_handles(_flat.world_overlap, self._capsule, flat, at, filter))
 
     def overlap_any(
         self,
@@ -674,7 +680,7 @@ class World:
         rotation: Vector = NO_ROTATION,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> bool:
         """Does it overlap anything?"""
         flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
@@ -689,30 +695,28 @@ class World:
         rotation: Vector = NO_ROTATION,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> List[records.Overlap]:
         """The shapes that it overlaps, with direction and depth: to move a character out. In the order of
         creation."""
         flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
-        found = records.read_all(_flat.world_overlap_shapes, records.OVERLAP, self._capsule, flat, at, filter)
-        return [
-            records.Overlap(Body(self, o[0]), Shape(self, o[1]), Vec3(o[3:6]), o[6], o[7], o[8], o[2]) for o in found
-        ]
+        read, record = _flat.world_overlap_shapes, records.OVERLAP
+        return self._list(records.Overlap, records.read_packed(read, record, self._capsule, flat, at, filter))
 
     def overlap_bounds(
-        self, lower: Vector, upper: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self, lower: Vector, upper: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
     ) -> List[Shape]:
         """The shapes whose bounds meet an axis-aligned box, in the order of creation."""
         filter = self._filter(mask, triggers, exclude)
-        ids = records.read_handles(_flat.world_overlap_bounds, self._capsule, (lower, upper), filter)
-        return [Shape(self, id) for id in ids]
+        return self._list(Shape, records.read_handles(_flat.world_overlap_bounds, self._capsule, (lower, upper), filter))
 
     def closest_point(
-        self, point: Vector, max_distance: float, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self, point: Vector, max_distance: float, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
     ) -> Optional[records.Closest]:
         """The point of all surfaces that is closest to a point, or None within max_distance, m."""
         filter = self._filter(mask, triggers, exclude)
-        return self._closest(_flat.world_closest_point(self._capsule, point, max_distance, filter))
+        found: Optional[records.Closest] = _flat.world_closest_point(self._capsule, point, max_distance, filter, self)
+        return found
 
     def raycast_many(
         self,
@@ -722,7 +726,7 @@ class World:
         spread: bool = True,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> Any:
         """raycast() for a buffer of rays (6 doubles each: origin, translation), over the world's workers when
         `spread`. Fills a buffer of hits (see records.HIT) and returns it; of a miss the body is 0 and the fraction
@@ -741,7 +745,7 @@ class World:
         spread: bool = True,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
-        exclude: Any = (),
+        exclude: Any = NOBODY,
     ) -> Any:
         """sweep() of one geometry for a buffer of paths (64 bytes each, see records.PATH), like raycast_many()."""
         if out is None:
@@ -952,20 +956,21 @@ class World:
         return options
 
     def _body(self, body: Body) -> int:
-        return handle_of(self, body, Body)
+        handle: int = _flat.handle_of(self, body, Body)
+        return handle
 
     def _ids(self, bodies: Any) -> Any:
         if isinstance(bodies, (list, tuple)):
-            return array("Q", [handle_of(self, body, Body) for body in bodies])
+            return _flat.handles_of(self, bodies, Body)
         return bodies
 
     def _joint_ids(self, joints: Any) -> Any:
         if isinstance(joints, (list, tuple)):
-            return array("Q", [handle_of(self, joint, Joint) for joint in joints])
+            return _flat.handles_of(self, joints, Joint)
         return joints
 
     def _filter(self, mask: int, triggers: bool, exclude: Any) -> Optional[Tuple[int, int, Any]]:
-        if mask == ALL_LAYERS and not triggers and exclude == ():
+        if exclude is NOBODY and mask == ALL_LAYERS and not triggers:
             return None
         if isinstance(exclude, Body):
             exclude = (exclude,)
@@ -977,39 +982,12 @@ class World:
     def _ends(self, ids: Sequence[int]) -> Tuple[Body, Body, Shape, Shape]:
         return Body(self, ids[0]), Body(self, ids[1]), Shape(self, ids[2]), Shape(self, ids[3])
 
-    def _hit(self, flat: Any) -> Optional[records.Hit]:
-        if flat is None:
-            return None
-        body, shape = Body(self, flat.body), Shape(self, flat.shape)
-        inside, back = flat.flags & _flat.FE_HIT_STARTED_INSIDE != 0, flat.flags & _flat.FE_HIT_BACK != 0
-        hit = (flat.point, flat.fraction, flat.normal, flat.triangle, flat.depth, inside, flat.part)
-        return records.Hit(body, shape, *hit, flat.barycentric, flat.material, back)
-
     def _hits(self, read: Callable[..., int], *arguments: Any) -> List[records.Hit]:
-        found = records.read_all(read, records.HIT, self._capsule, *arguments)
-        return [
-            records.Hit(
-                Body(self, body),
-                Shape(self, shape),
-                Vec3((x, y, z)),
-                fraction,
-                Vec3((nx, ny, nz)),
-                triangle,
-                depth,
-                flags & _flat.FE_HIT_STARTED_INSIDE != 0,
-                part,
-                (u, v),
-                material,
-                flags & _flat.FE_HIT_BACK != 0,
-            )
-            for body, shape, x, y, z, fraction, material, nx, ny, nz, depth, part, triangle, u, v, flags in found
-        ]
+        return self._list(records.Hit, records.read_packed(read, records.HIT, self._capsule, *arguments))
 
-    def _closest(self, flat: Any) -> Optional[records.Closest]:
-        if flat is None:
-            return None
-        closest = (flat.point, flat.distance, flat.normal, flat.triangle, flat.part, flat.barycentric, flat.material)
-        return records.Closest(Body(self, flat.body), Shape(self, flat.shape), *closest)
+    def _list(self, kind: Type[Found], packed: Any) -> List[Found]:
+        found: List[Found] = _flat.list_of(kind, self, self._capsule, packed)
+        return found
 
     def _contacts(self, read: Callable[..., int], id: int) -> List[records.Contact]:
         return [_contact(self, c) for c in records.read_all(read, records.CONTACT, self._capsule, id)]

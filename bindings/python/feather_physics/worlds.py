@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _flat
 from .errors import FeatherError, InvalidArgumentError, UnsupportedError
-from .objects import Body, Joint, Shape, handle_of
+from .objects import Body, Joint, Shape
 from .records import Vector
 from .state import State
 from .words import SIMD_SETS, word
@@ -167,8 +167,8 @@ class Worlds:
         number, kind, width = _field(field)
         if (kind is None) != (items is None):
             raise InvalidArgumentError(f"{field}: " + ("it has no items" if kind is None else "of which items?"))
-        ids = None if kind is None or items is None else arrays.array("Q", [handle_of(self._world, item, kind) for item in items])
-        frame = 0 if relative_to is None else handle_of(self._world, relative_to, Body)
+        ids = None if kind is None or items is None else _flat.handles_of(self._world, items, kind)
+        frame = 0 if relative_to is None else _flat.handle_of(self._world, relative_to, Body)
         shape, given = (self._count, 1 if items is None else len(items), width), memoryview(data)
         if given.ndim != 1 and given.shape != shape:  # as many numbers in another order would be taken for others
             raise InvalidArgumentError(f"{field}: an array of shape {shape} is needed, not {given.shape}")

@@ -34,7 +34,7 @@ def main() -> None:
         cost("flat_get_mass", lambda: mass(w, b))
         cost("flat_get_position", lambda: position(w, b))
         cost("flat_set_velocity", lambda: set_velocity(w, b, still))
-        cost("flat_raycast", lambda: _flat.world_raycast(w, ray, down, None), CALLS // 10)
+        cost("flat_raycast", lambda: _flat.world_raycast(w, ray, down, None, world), CALLS // 10)
         cost("body.position", lambda: body.position)
         cost("body.mass", lambda: body.mass)
         cost("world.raycast", lambda: world.raycast(ray, down), CALLS // 10)

@@ -21,6 +21,8 @@ ELSEWHERE = {
 }
 # arrays: a buffer goes in, though the name begins with out_
 BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners|instances|keys|frames)$")
+# the World goes in, whose hit it is
+HITS = ("out_hit", "out_closest")
 # an object with the bytes goes in, or comes out
 BYTES = {"fe_asset_save": 2, "fe_asset_load": 2, "fe_world_save": 2, "fe_world_restore": 3, "fe_world_load": 3, "fe_snapshot_check": 1, "fe_snapshot_get_assets": 2, "fe_snapshot_compare": 2, "fe_recorder_read": 1, "fe_player_feed": 2}
 FOUND_FROM_BUFFERS = ("allocator", "stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
@@ -35,7 +37,7 @@ def python_arguments(function: Function) -> int:
             continue
         if parameter.name.startswith("out_") and "*" in parameter.type:
             scalar_pair = function.name in ("fe_joint_get_bodies", "fe_shape_get_events")
-            if scalar_pair or not BUFFERS.match(parameter.name):
+            if scalar_pair or not (BUFFERS.match(parameter.name) or parameter.name in HITS):
                 continue
         count += 1
     return count

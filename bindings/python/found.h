@@ -1,0 +1,238 @@
+// Bodies, shapes and what queries find, as objects of the package's own classes. They are made and read here because
+// the interpreter takes ten times as long for a hit as the library for its ray.
+#ifndef FE_BINDINGS_PYTHON_FOUND_H
+#define FE_BINDINGS_PYTHON_FOUND_H
+
+#include "convert.h"
+
+#include <structmember.h>
+
+enum { ENTITY, BODY, SHAPE, HIT, CLOSEST, OVERLAP, CLASSES };
+static PyTypeObject *classes[CLASSES];
+/// Where an entity has its attributes: _world, _capsule, _id.
+enum { WORLD_SLOT, CAPSULE_SLOT, ID_SLOT, SLOTS };
+static Py_ssize_t slots[SLOTS];
+
+static int find_slot(PyTypeObject *type, const char *name, Py_ssize_t *out_slot)
+{
+    PyObject *member = PyObject_GetAttrString((PyObject *)type, name);
+    if (!member) return -1;
+    int is_slot = Py_IS_TYPE(member, &PyMemberDescr_Type);
+    if (is_slot) *out_slot = ((PyMemberDescrObject *)member)->d_member->offset;
+    Py_DECREF(member);
+    if (!is_slot) PyErr_Format(PyExc_TypeError, "%s is no slot", name);
+    return is_slot ? 0 : -1;
+}
+
+static int is_class(PyObject *object, PyTypeObject *base)
+{
+    if (PyType_Check(object) && PyType_IsSubtype((PyTypeObject *)object, base)) return 1;
+    PyErr_Format(PyExc_TypeError, "a class of %s is needed", base->tp_name);
+    return 0;
+}
+
+/// Takes the classes from a tuple, in the order of the enum: the entities, then the named tuples.
+static PyObject *set_classes(PyObject *tuple)
+{
+    if (!PyTuple_Check(tuple) || PyTuple_GET_SIZE(tuple) != CLASSES)
+        return PyErr_SetString(PyExc_TypeError, "a tuple of classes is needed"), NULL;
+    PyObject *const *given = &PyTuple_GET_ITEM(tuple, 0);
+    if (!is_class(given[ENTITY], &PyBaseObject_Type)) return NULL;
+    for (int i = BODY; i < CLASSES; ++i)
+        if (!is_class(given[i], i < HIT ? (PyTypeObject *)given[ENTITY] : &PyTuple_Type)) return NULL;
+    PyTypeObject *entity = (PyTypeObject *)given[ENTITY];
+    if (find_slot(entity, "_world", &slots[WORLD_SLOT]) || find_slot(entity, "_capsule", &slots[CAPSULE_SLOT]) ||
+        find_slot(entity, "_id", &slots[ID_SLOT]))
+        return NULL;
+    for (int i = 0; i < CLASSES; ++i) {
+        PyTypeObject *type = (PyTypeObject *)Py_NewRef(given[i]);
+        Py_XSETREF(classes[i], type);
+    }
+    Py_RETURN_NONE;
+}
+
+// ---- bodies, shapes, joints -----------------------------------------------------------------------------------------
+
+static PyObject **slot_of(PyObject *entity, int slot) { return (PyObject **)((char *)entity + slots[slot]); }
+
+/// The world that is found in: its object, and its capsule.
+typedef struct place {
+    PyObject *world, *capsule;
+} place;
+
+static PyObject *new_entity(PyTypeObject *type, const place *in, fe_handle handle)
+{
+    PyObject *id = PyLong_FromUnsignedLongLong(handle);
+    PyObject *made = id ? type->tp_alloc(type, 0) : NULL;
+    if (!made) {
+        Py_XDECREF(id);
+        return NULL;
+    }
+    *slot_of(made, WORLD_SLOT) = Py_NewRef(in->world);
+    *slot_of(made, CAPSULE_SLOT) = Py_NewRef(in->capsule);
+    *slot_of(made, ID_SLOT) = id;
+    return made;
+}
+
+static int not_of_class(PyObject *object, PyTypeObject *type)
+{
+    PyObject *wanted = PyObject_GetAttrString((PyObject *)type, "__name__");
+    PyObject *given = PyObject_GetAttrString((PyObject *)Py_TYPE(object), "__name__");
+    if (wanted && given) PyErr_Format(PyExc_TypeError, "a %S is needed, not %R", wanted, given);
+    Py_XDECREF(wanted);
+    Py_XDECREF(given);
+    return -1;
+}
+
+/// The handle of an object of a class of entities, if it is one of this world.
+static int to_handle(PyObject *world, PyObject *object, PyTypeObject *type, fe_handle *out_handle)
+{
+    if (!PyObject_TypeCheck(object, type)) return not_of_class(object, type);
+    PyObject *id = *slot_of(object, ID_SLOT);
+    if (*slot_of(object, WORLD_SLOT) != world || !id) {
+        PyErr_Format(error_class(FE_ERROR_ARGUMENT), "%R belongs to another world", object);
+        return -1;
+    }
+    *out_handle = PyLong_AsUnsignedLongLong(id);
+    return *out_handle == (fe_handle)-1 && PyErr_Occurred() ? -1 : 0;
+}
+
+/// (world, object, class): the object's handle.
+static PyObject *handle_of(PyObject *arguments)
+{
+    PyObject *world, *object, *type;
+    fe_handle handle;
+    if (!PyArg_UnpackTuple(arguments, "handle_of", 3, 3, &world, &object, &type)) return NULL;
+    if (!is_class(type, classes[ENTITY]) || to_handle(world, object, (PyTypeObject *)type, &handle)) return NULL;
+    return PyLong_FromUnsignedLongLong(handle);
+}
+
+/// (world, sequence of objects, class): the handles of all, as bytes.
+static PyObject *handles_of(PyObject *arguments)
+{
+    PyObject *world, *given, *type;
+    if (!PyArg_UnpackTuple(arguments, "handles_of", 3, 3, &world, &given, &type)) return NULL;
+    if (!is_class(type, classes[ENTITY])) return NULL;
+    PyObject *objects = PyList_Check(given) ? Py_NewRef(given) : PySequence_Tuple(given);
+    if (!objects) return NULL;
+    Py_ssize_t count = PySequence_Fast_GET_SIZE(objects);
+    PyObject *bytes = PyBytes_FromStringAndSize(NULL, count * (Py_ssize_t)sizeof(fe_handle));
+    fe_handle *handles = bytes ? (fe_handle *)(void *)PyBytes_AS_STRING(bytes) : NULL;
+    for (Py_ssize_t i = 0; bytes && i < count; ++i)
+        if (to_handle(world, PySequence_Fast_GET_ITEM(objects, i), (PyTypeObject *)type, &handles[i])) Py_CLEAR(bytes);
+    Py_DECREF(objects);
+    return bytes;
+}
+
+// ---- named tuples ---------------------------------------------------------------------------------------------------
+
+/// Takes the references; the fields of what failed are NULL.
+static PyObject *new_record(PyTypeObject *type, PyObject *const *fields, Py_ssize_t count)
+{
+    int whole = 1;
+    for (Py_ssize_t i = 0; i < count; ++i) whole &= fields[i] != NULL;
+    PyObject *made = whole ? type->tp_alloc(type, count) : NULL;
+    for (Py_ssize_t i = 0; i < count; ++i) {
+        if (made)
+            PyTuple_SET_ITEM(made, i, fields[i]);
+        else
+            Py_XDECREF(fields[i]);
+    }
+    return made;
+}
+
+static PyObject *from_weights(const float barycentric[2])
+{
+    PyObject *weights[] = {PyFloat_FromDouble((double)barycentric[0]), PyFloat_FromDouble((double)barycentric[1])};
+    return new_record(&PyTuple_Type, weights, 2);
+}
+
+static PyObject *from_hit(const place *in, const fe_hit *hit)
+{
+    PyObject *const fields[] = {
+        new_entity(classes[BODY], in, hit->body),
+        new_entity(classes[SHAPE], in, hit->shape),
+        from_dvec3(&hit->point),
+        PyFloat_FromDouble(hit->fraction),
+        from_vec3(&hit->normal),
+        PyLong_FromLong(hit->triangle),
+        PyFloat_FromDouble((double)hit->depth),
+        PyBool_FromLong((hit->flags & FE_HIT_STARTED_INSIDE) != 0),
+        PyLong_FromLong(hit->part),
+        from_weights(hit->barycentric),
+        PyLong_FromUnsignedLongLong(hit->material),
+        PyBool_FromLong((hit->flags & FE_HIT_BACK) != 0),
+    };
+    return new_record(classes[HIT], fields, sizeof fields / sizeof *fields);
+}
+
+static PyObject *from_closest(const place *in, const fe_closest *closest)
+{
+    PyObject *const fields[] = {
+        new_entity(classes[BODY], in, closest->body),
+        new_entity(classes[SHAPE], in, closest->shape),
+        from_dvec3(&closest->point),
+        PyFloat_FromDouble(closest->distance),
+        from_vec3(&closest->normal),
+        PyLong_FromLong(closest->triangle),
+        PyLong_FromLong(closest->part),
+        from_weights(closest->barycentric),
+        PyLong_FromUnsignedLongLong(closest->material),
+    };
+    return new_record(classes[CLOSEST], fields, sizeof fields / sizeof *fields);
+}
+
+static PyObject *from_overlap(const place *in, const fe_overlap *overlap)
+{
+    PyObject *const fields[] = {
+        new_entity(classes[BODY], in, overlap->body),
+        new_entity(classes[SHAPE], in, overlap->shape),
+        from_vec3(&overlap->direction),
+        PyFloat_FromDouble((double)overlap->depth),
+        PyLong_FromLong(overlap->part),
+        PyLong_FromLong(overlap->triangle),
+        PyLong_FromUnsignedLongLong(overlap->material),
+    };
+    return new_record(classes[OVERLAP], fields, sizeof fields / sizeof *fields);
+}
+
+static size_t size_of_record(const PyTypeObject *type)
+{
+    return type == classes[HIT] ? sizeof(fe_hit) : type == classes[OVERLAP] ? sizeof(fe_overlap) : sizeof(fe_handle);
+}
+
+static PyObject *from_record(PyTypeObject *type, const place *in, const void *record)
+{
+    return type == classes[HIT]       ? from_hit(in, record)
+           : type == classes[OVERLAP] ? from_overlap(in, record)
+                                      : new_entity(type, in, *(const fe_handle *)record);
+}
+
+/// (class, world, its capsule, a buffer of records or handles): a list of what they say.
+static PyObject *list_of(PyObject *arguments)
+{
+    PyObject *class, *buffer, *list = NULL;
+    place in;
+    Py_buffer *view;
+    call_state call;
+    if (!PyArg_UnpackTuple(arguments, "list_of", 4, 4, &class, &in.world, &in.capsule, &buffer)) return NULL;
+    PyTypeObject *type = (PyTypeObject *)class;
+    if (type != classes[HIT] && type != classes[OVERLAP] && !is_class(class, classes[ENTITY])) return NULL;
+    size_t size = size_of_record(type);
+    begin_call(&call);
+    if (!borrow(&call, buffer, size, PyBUF_C_CONTIGUOUS, "records", &view)) {
+        Py_ssize_t count = view->len / (Py_ssize_t)size;
+        list = PyList_New(count);
+        for (Py_ssize_t i = 0; list && i < count; ++i) {
+            PyObject *item = from_record(type, &in, (const char *)view->buf + (size_t)i * size);
+            if (item)
+                PyList_SET_ITEM(list, i, item);
+            else
+                Py_CLEAR(list);
+        }
+    }
+    end_call(&call);
+    return list;
+}
+
+#endif
