@@ -8,7 +8,7 @@
 #include <structmember.h>
 
 enum { ENTITY, BODY, SHAPE, HIT, CLOSEST, OVERLAP, CLASSES };
-static PyTypeObject *classes[CLASSES];
+static PyTypeObject *known_classes[CLASSES];
 /// Where an entity has its attributes: _world, _capsule, _id.
 enum { WORLD_SLOT, CAPSULE_SLOT, ID_SLOT, SLOTS };
 static Py_ssize_t slots[SLOTS];
@@ -36,7 +36,7 @@ static PyObject *set_classes(PyObject *tuple)
 {
     if (!PyTuple_Check(tuple) || PyTuple_GET_SIZE(tuple) != CLASSES)
         return PyErr_SetString(PyExc_TypeError, "a tuple of classes is needed"), NULL;
-    PyObject *const *given = &PyTuple_GET_ITEM(tuple, 0);
+    PyObject **given = PySequence_Fast_ITEMS(tuple);
     if (!is_class(given[ENTITY], &PyBaseObject_Type)) return NULL;
     for (int i = BODY; i < CLASSES; ++i)
         if (!is_class(given[i], i < HIT ? (PyTypeObject *)given[ENTITY] : &PyTuple_Type)) return NULL;
@@ -46,7 +46,7 @@ static PyObject *set_classes(PyObject *tuple)
         return NULL;
     for (int i = 0; i < CLASSES; ++i) {
         PyTypeObject *type = (PyTypeObject *)Py_NewRef(given[i]);
-        Py_XSETREF(classes[i], type);
+        Py_XSETREF(known_classes[i], type);
     }
     Py_RETURN_NONE;
 }
@@ -88,8 +88,9 @@ static int not_of_class(PyObject *object, PyTypeObject *type)
 static int to_handle(PyObject *world, PyObject *object, PyTypeObject *type, fe_handle *out_handle)
 {
     if (!PyObject_TypeCheck(object, type)) return not_of_class(object, type);
-    PyObject *id = *slot_of(object, ID_SLOT);
-    if (*slot_of(object, WORLD_SLOT) != world || !id) {
+    PyObject *home = *slot_of(object, WORLD_SLOT), *id = *slot_of(object, ID_SLOT);
+    if (!home || !id) return PyErr_SetString(PyExc_AttributeError, "an object of no world"), -1;
+    if (home != world) {
         PyErr_Format(error_class(FE_ERROR_ARGUMENT), "%R belongs to another world", object);
         return -1;
     }
@@ -103,7 +104,7 @@ static PyObject *handle_of(PyObject *arguments)
     PyObject *world, *object, *type;
     fe_handle handle;
     if (!PyArg_UnpackTuple(arguments, "handle_of", 3, 3, &world, &object, &type)) return NULL;
-    if (!is_class(type, classes[ENTITY]) || to_handle(world, object, (PyTypeObject *)type, &handle)) return NULL;
+    if (!is_class(type, known_classes[ENTITY]) || to_handle(world, object, (PyTypeObject *)type, &handle)) return NULL;
     return PyLong_FromUnsignedLongLong(handle);
 }
 
@@ -112,7 +113,7 @@ static PyObject *handles_of(PyObject *arguments)
 {
     PyObject *world, *given, *type;
     if (!PyArg_UnpackTuple(arguments, "handles_of", 3, 3, &world, &given, &type)) return NULL;
-    if (!is_class(type, classes[ENTITY])) return NULL;
+    if (!is_class(type, known_classes[ENTITY])) return NULL;
     PyObject *objects = PyList_Check(given) ? Py_NewRef(given) : PySequence_Tuple(given);
     if (!objects) return NULL;
     Py_ssize_t count = PySequence_Fast_GET_SIZE(objects);
@@ -143,15 +144,18 @@ static PyObject *new_record(PyTypeObject *type, PyObject *const *fields, Py_ssiz
 
 static PyObject *from_weights(const float barycentric[2])
 {
-    PyObject *weights[] = {PyFloat_FromDouble((double)barycentric[0]), PyFloat_FromDouble((double)barycentric[1])};
-    return new_record(&PyTuple_Type, weights, 2);
+    PyObject *second = PyFloat_FromDouble((double)barycentric[0]), *third = PyFloat_FromDouble((double)barycentric[1]);
+    PyObject *weights = second && third ? PyTuple_Pack(2, second, third) : NULL;
+    Py_XDECREF(second);
+    Py_XDECREF(third);
+    return weights;
 }
 
 static PyObject *from_hit(const place *in, const fe_hit *hit)
 {
     PyObject *const fields[] = {
-        new_entity(classes[BODY], in, hit->body),
-        new_entity(classes[SHAPE], in, hit->shape),
+        new_entity(known_classes[BODY], in, hit->body),
+        new_entity(known_classes[SHAPE], in, hit->shape),
         from_dvec3(&hit->point),
         PyFloat_FromDouble(hit->fraction),
         from_vec3(&hit->normal),
@@ -163,14 +167,14 @@ static PyObject *from_hit(const place *in, const fe_hit *hit)
         PyLong_FromUnsignedLongLong(hit->material),
         PyBool_FromLong((hit->flags & FE_HIT_BACK) != 0),
     };
-    return new_record(classes[HIT], fields, sizeof fields / sizeof *fields);
+    return new_record(known_classes[HIT], fields, sizeof fields / sizeof *fields);
 }
 
 static PyObject *from_closest(const place *in, const fe_closest *closest)
 {
     PyObject *const fields[] = {
-        new_entity(classes[BODY], in, closest->body),
-        new_entity(classes[SHAPE], in, closest->shape),
+        new_entity(known_classes[BODY], in, closest->body),
+        new_entity(known_classes[SHAPE], in, closest->shape),
         from_dvec3(&closest->point),
         PyFloat_FromDouble(closest->distance),
         from_vec3(&closest->normal),
@@ -179,33 +183,35 @@ static PyObject *from_closest(const place *in, const fe_closest *closest)
         from_weights(closest->barycentric),
         PyLong_FromUnsignedLongLong(closest->material),
     };
-    return new_record(classes[CLOSEST], fields, sizeof fields / sizeof *fields);
+    return new_record(known_classes[CLOSEST], fields, sizeof fields / sizeof *fields);
 }
 
 static PyObject *from_overlap(const place *in, const fe_overlap *overlap)
 {
     PyObject *const fields[] = {
-        new_entity(classes[BODY], in, overlap->body),
-        new_entity(classes[SHAPE], in, overlap->shape),
+        new_entity(known_classes[BODY], in, overlap->body),
+        new_entity(known_classes[SHAPE], in, overlap->shape),
         from_vec3(&overlap->direction),
         PyFloat_FromDouble((double)overlap->depth),
         PyLong_FromLong(overlap->part),
         PyLong_FromLong(overlap->triangle),
         PyLong_FromUnsignedLongLong(overlap->material),
     };
-    return new_record(classes[OVERLAP], fields, sizeof fields / sizeof *fields);
+    return new_record(known_classes[OVERLAP], fields, sizeof fields / sizeof *fields);
 }
 
 static size_t size_of_record(const PyTypeObject *type)
 {
-    return type == classes[HIT] ? sizeof(fe_hit) : type == classes[OVERLAP] ? sizeof(fe_overlap) : sizeof(fe_handle);
+    return type == known_classes[HIT]       ? sizeof(fe_hit)
+           : type == known_classes[OVERLAP] ? sizeof(fe_overlap)
+                                            : sizeof(fe_handle);
 }
 
 static PyObject *from_record(PyTypeObject *type, const place *in, const void *record)
 {
-    return type == classes[HIT]       ? from_hit(in, record)
-           : type == classes[OVERLAP] ? from_overlap(in, record)
-                                      : new_entity(type, in, *(const fe_handle *)record);
+    return type == known_classes[HIT]       ? from_hit(in, record)
+           : type == known_classes[OVERLAP] ? from_overlap(in, record)
+                                            : new_entity(type, in, *(const fe_handle *)record);
 }
 
 /// (class, world, its capsule, a buffer of records or handles): a list of what they say.
@@ -217,7 +223,8 @@ static PyObject *list_of(PyObject *arguments)
     call_state call;
     if (!PyArg_UnpackTuple(arguments, "list_of", 4, 4, &class, &in.world, &in.capsule, &buffer)) return NULL;
     PyTypeObject *type = (PyTypeObject *)class;
-    if (type != classes[HIT] && type != classes[OVERLAP] && !is_class(class, classes[ENTITY])) return NULL;
+    if (type != known_classes[HIT] && type != known_classes[OVERLAP] && !is_class(class, known_classes[ENTITY]))
+        return NULL;
     size_t size = size_of_record(type);
     begin_call(&call);
     if (!borrow(&call, buffer, size, PyBUF_C_CONTIGUOUS, "records", &view)) {

@@ -39,6 +39,13 @@ cost("flat_get_position", CALLS, function(n) for _ = 1, n do local x, y, z = get
 cost("body:getPosition", CALLS, function(n) for _ = 1, n do local x, y, z = body:getPosition() end end)
 cost("body:setLinearVelocity", CALLS, function(n) for _ = 1, n do body:setLinearVelocity(0, 0, 0) end end)
 cost("world:rayCast", CALLS / 20, function(n) for _ = 1, n do world:rayCast(0, 9, 0, 0, -20, 0) end end)
-for _ = 1, 9999 do world:newBody() end
-local ids = world:getBodyIds()
+local but_one = { exclude = world:newBody() }
+cost("world:rayCast excluding one", CALLS / 20, function(n)
+    for _ = 1, n do world:rayCast(0, 9, 0, 0, -20, 0, but_one) end
+end)
+for _ = 1, 9998 do world:newBody() end
+local ids, bodies = world:getBodyIds(), world:getBodies()
 cost("bulk_10000_transforms", 10 * 10000, function(n) for _ = 1, n / 10000 do world:getTransforms(ids) end end)
+cost("bulk_10000_transforms of bodies", 10 * 10000, function(n)
+    for _ = 1, n / 10000 do world:getTransforms(bodies) end
+end)

@@ -16,6 +16,7 @@ from feather_physics import (
     Box,
     BusyError,
     FeatherError,
+    Hit,
     InvalidArgumentError,
     Pool,
     Sphere,
@@ -164,6 +165,42 @@ def test_flat_functions_refuse_what_is_no_world() -> None:
     for handle in (-1, 2**64, 1.5, None, "1"):
         with World() as world, pytest.raises((TypeError, OverflowError)):
             _flat.body_get_position(world._capsule, handle)
+
+
+def test_bodies_that_are_none_of_this_world(world: World, ball: Body) -> None:
+    shape, out, unmade = ball.shapes[0], array("f", bytes(28)), Body.__new__(Body)
+    with World() as other:
+        stranger = other.create_body()
+        uses: List[Callable[[Any], Any]] = [
+            lambda body: world.raycast((0, 0, 0), (0, 1, 0), exclude=[body]),
+            lambda body: world.transforms(out, bodies=[body]),
+            lambda body: world.set_velocities((body,), array("f", bytes(24))),
+            lambda body: world.destroy_bodies([ball, body]),
+            lambda body: world.create_ball_joint(ball, body, (0, 0, 0)),
+        ]
+        for use in uses:
+            with pytest.raises(InvalidArgumentError, match=f"^<Body {stranger.id:#x}> belongs to another world$"):
+                use(stranger)
+            with pytest.raises(TypeError, match="^a Body is needed, not 'Shape'$"):
+                use(shape)
+            with pytest.raises(TypeError, match="^a Body is needed, not 'array'$"):
+                use(out)
+            with pytest.raises(AttributeError, match="no world"):
+                use(unmade)
+    with pytest.raises(TypeError, match="^a Joint is needed, not 'Body'$"):
+        world.joint_coordinates([ball])
+    assert ball.is_valid
+
+
+def test_a_hit_holds_its_world_and_lets_it_go(world: World, ball: Body) -> None:
+    held = sys.getrefcount(world), sys.getrefcount(world._capsule), sys.getrefcount(Body), sys.getrefcount(Hit)
+    for _ in range(100):
+        hit = world.raycast((0, 9, 0), (0, -20, 0), exclude=[])
+        assert hit and hit.body == ball and world.raycast_all((0, 9, 0), (0, -20, 0)) == [hit]
+        assert world.closest_point((0, 9, 0), 99) and world.overlap_shapes(Sphere(9), (0, 0, 0)) and world.bodies
+    assert sys.getrefcount(world) == held[0] + 2
+    del hit
+    assert held == (sys.getrefcount(world), sys.getrefcount(world._capsule), sys.getrefcount(Body), sys.getrefcount(Hit))
 
 
 def test_arrays_that_do_not_fit(world: World, ball: Body) -> None:

@@ -7,17 +7,22 @@ import weakref
 from array import array
 from typing import Any, List
 
+import numpy as np
 import pytest
 
 from feather_physics import (
     Body,
     Bounds,
     Box,
+    Closest,
     Filter,
     FilterPair,
+    Hit,
     InvalidArgumentError,
     Material,
+    Overlap,
     Plane,
+    Shape,
     Sphere,
     StaleHandleError,
     StateError,
@@ -26,6 +31,7 @@ from feather_physics import (
     UnsupportedError,
     Vec3,
     World,
+    records,
 )
 
 STEP = 1 / 60
@@ -115,6 +121,27 @@ def test_triangle_and_barycentric_coordinates_of_a_hit(world: World) -> None:
     # cell 1, above its diagonal from (0, 0) to (1, 1): its z side, triangle 2
     assert hit and hit.triangle == 2 and 0 < hit.barycentric[0] + hit.barycentric[1] < 1
     assert world.raycast_all((2.5, 1, 1.5), (0, -2, 0)) == [hit]
+
+
+def test_a_hit_has_the_fields_of_the_record(world: World) -> None:
+    mesh = world.create_mesh([(0, 0, 0), (0, 0, 3), (3, 0, 0)], [(0, 1, 2)], two_sided=True)
+    body = world.create_body("static", position=(1, 2, 3))
+    shape = body.add(mesh, material=Material(user_id=5))
+    start, way = (2, 0, 4), (0, 4, 0)
+    hit = world.raycast(start, way)
+    packed = np.frombuffer(world.raycast_many(np.array([[*start, *way]], float)), records.HIT.dtype)[0]
+    assert hit and type(hit) is Hit and type(hit.body) is Body and type(hit.shape) is Shape and type(hit.point) is Vec3
+    assert (hit.body, hit.shape, hit.body.id, hit.shape.id) == (body, shape, packed["body"], packed["shape"])
+    for name in ("point", "normal", "barycentric", "fraction", "depth", "part", "triangle", "material"):
+        assert np.array_equal(getattr(hit, name), packed[name]), name
+    assert hit.back is True and hit.started_inside is False and hit.body.world is world and hit.body.mass == 0
+    assert world.raycast_all(start, way) == [hit] and repr(world.raycast_all(start, way)[0]) == repr(hit)
+    near = world.closest_point(start, 9)
+    assert type(near) is Closest and near[:3] == (body, shape, (2, 2, 4)) and near.distance == 2 and near.part == -1
+    assert near[4:] == ((0, -1, 0), 0, -1, hit.barycentric, 5)
+    (overlap,) = world.overlap_shapes(Sphere(0.5), (2, 2.25, 4))
+    assert type(overlap) is Overlap and overlap[:2] == (body, shape) and overlap[4:] == (-1, 0, 5)
+    assert overlap.direction == (0, 1, 0) and overlap.depth == pytest.approx(0.25)
 
 
 @pytest.mark.parametrize("group,touches", [(1, True), (-1, False), (0, False)])
