@@ -94,8 +94,10 @@ static int to_handle(PyObject *world, PyObject *object, PyTypeObject *type, fe_h
         PyErr_Format(error_class(FE_ERROR_ARGUMENT), "%R belongs to another world", object);
         return -1;
     }
-    *out_handle = PyLong_AsUnsignedLongLong(id);
-    return *out_handle == (fe_handle)-1 && PyErr_Occurred() ? -1 : 0;
+    if (!PyLong_Check(id)) return PyErr_SetString(PyExc_TypeError, "an object without a handle"), -1;
+    int overflow; // by digits: PyLong_AsUnsignedLongLong() goes byte by byte
+    *out_handle = (fe_handle)PyLong_AsLongLongAndOverflow(id, &overflow);
+    return 0;
 }
 
 /// (world, object, class): the object's handle.
