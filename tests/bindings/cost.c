@@ -37,6 +37,7 @@ int main(void)
     fe_geometry ball;
     fe_transform transform;
     fe_hit hit;
+    fe_query_filter but_one;
     fe_vec3 velocity = fe_make_vec3(0, 0, 0);
     fe_dvec3 origin = fe_make_dvec3(0, 9, 0), down = fe_make_dvec3(0, -20, 0), zero = fe_make_dvec3(0, 0, 0);
     int failed = 0;
@@ -48,7 +49,12 @@ int main(void)
     MEASURE("get_transform", CALLS, fe_body_get_transform(world, body, &transform));
     MEASURE("set_velocity", CALLS, fe_body_set_linear_velocity(world, body, &velocity));
     MEASURE("raycast", CALLS / 10, fe_world_raycast(world, &origin, &down, NULL, &hit));
-    for (int i = 0; i < BODIES; ++i)
+    if (fe_body_create(world, NULL, &bodies[0]) != FE_OK) return 1;
+    fe_query_filter_init(&but_one, sizeof but_one);
+    but_one.excluded = bodies;
+    but_one.excluded_count = 1;
+    MEASURE("raycast_excluding_one", CALLS / 10, fe_world_raycast(world, &origin, &down, &but_one, &hit));
+    for (int i = 1; i < BODIES; ++i)
         if (fe_body_create(world, NULL, &bodies[i]) != FE_OK) return 1;
     MEASURE("bulk_10000_transforms", READS, fe_world_get_transforms_f32(world, bodies, &zero, floats, 0, BODIES));
     return failed | (fe_world_destroy(world) != FE_OK);

@@ -11,6 +11,8 @@ namespace FeatherPhysics.Tests
         // The same functions without the layer: what a call costs at least.
         [DllImport("feather_csharp", EntryPoint = "CSharp_FeatherPhysics_body_get_linear_velocity")]
         static extern int RawGetVelocity(void* world, ulong body, void* velocity);
+        [DllImport("feather_csharp", EntryPoint = "CSharp_FeatherPhysics_body_get_position")]
+        static extern int RawGetPosition(void* world, ulong body, void* position);
         [DllImport("feather_csharp", EntryPoint = "CSharp_FeatherPhysics_body_get_transform")]
         static extern int RawGetTransform(void* world, ulong body, void* transform);
         [DllImport("feather_csharp", EntryPoint = "CSharp_FeatherPhysics_body_set_linear_velocity")]
@@ -59,6 +61,10 @@ namespace FeatherPhysics.Tests
                     0); for (int i = 0; i < Calls; ++i) body.LinearVelocity = v; }, Calls),
                     Best(() => { Vector3 v = new Vector3(1, 0, 0); for (int i = 0; i < Calls; ++i) RawSetVelocity(w, id,
                         &v); }, Calls));
+                Row("body.Position",
+                    Best(() => { for (int i = 0; i < Calls; ++i) sum += (float)body.Position.X; }, Calls),
+                    Best(() => { DVec3 at; for (int i = 0; i < Calls; ++i) { RawGetPosition(w, id,
+                        &at); sum += (float)at.X; } }, Calls));
                 Row("body.Transform",
                     Best(() => { for (int i = 0; i < Calls; ++i) sum += (float)body.Transform.Position.X; }, Calls),
                     Best(() => { WorldTransform t; for (int i = 0; i < Calls; ++i) { RawGetTransform(w, id,

@@ -8,7 +8,6 @@ from typing import overload
 
 from . import _flat, records
 from ._flat import Bounds, Quat, Transform, Vec3
-from .errors import InvalidArgumentError
 from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Cone, Cylinder, Filter, Geometry, Material
 from .records import Plane, Sphere, Vector
 from .store import flat_geometry, geometry_of
