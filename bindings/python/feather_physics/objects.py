@@ -455,8 +455,7 @@ class Shape(Entity):
     def overlaps(self) -> List["Shape"]:
         """Shapes that touched it at the end of the last step: who is inside a trigger now. In the order of
         creation."""
-        ids = records.read_handles(_flat.shape_get_overlaps, self._capsule, self._id)
-        return [Shape(self._world, id) for id in ids]
+        return self._world._list(Shape, records.read_handles(_flat.shape_get_overlaps, self._capsule, self._id))
 
     def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
         """Where a segment meets this shape, whatever its layer."""

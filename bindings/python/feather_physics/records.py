@@ -533,21 +533,39 @@ BODY_TYPES = ("static", "kinematic", "dynamic")
 JOINT_TYPES = {1: "distance", 2: "ball", 3: "hinge", 4: "fixed", 5: "configurable"}
 
 
-def read_packed(read: Callable[..., int], record: Packed, *arguments: Any) -> bytearray:
-    """All records that `read` has to give, as they are packed."""
-    buffer = bytearray(read(*arguments, None) * record.size)
-    if buffer:
-        read(*arguments, buffer)
-    return buffer
-
-
 def read_all(read: Callable[..., int], record: Packed, *arguments: Any) -> List[Tuple[Any, ...]]:
-    """The same as plain tuples."""
-    return list(record.iter_unpack(read_packed(read, record, *arguments)))
+    """All records that `read` has to give, as plain tuples."""
+    count = read(*arguments, None)
+    if count == 0:
+        return []
+    buffer = bytearray(count * record.size)
+    read(*arguments, buffer)
+    return list(record.iter_unpack(buffer))
+
+
+SOME = 16
+"""As many as most queries find: with room for them the search is made once, not to count first."""
+
+
+def read_found(read: Callable[..., int], record: Packed, *arguments: Any) -> bytearray:
+    """All records that a query has to give, as they are packed."""
+    buffer = bytearray(SOME * record.size)
+    count = read(*arguments, buffer)
+    if count > SOME:
+        buffer = bytearray(count * record.size)
+        read(*arguments, buffer)
+    elif count < SOME:
+        del buffer[count * record.size :]
+    return buffer
 
 
 def read_handles(read: Callable[..., int], *arguments: Any) -> "array[int]":
     """All handles that `read` has to give."""
-    handles = array("Q", bytes(8 * read(*arguments, None)))
-    read(*arguments, handles)
+    handles = array("Q", bytes(8 * SOME))
+    count = read(*arguments, handles)
+    if count > SOME:
+        handles = array("Q", bytes(8 * count))
+        read(*arguments, handles)
+    elif count < SOME:
+        del handles[count:]
     return handles

@@ -701,7 +701,7 @@ class World:
         creation."""
         flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         read, record = _flat.world_overlap_shapes, records.OVERLAP
-        return self._list(records.Overlap, records.read_packed(read, record, self._capsule, flat, at, filter))
+        return self._list(records.Overlap, records.read_found(read, record, self._capsule, flat, at, filter))
 
     def overlap_bounds(
         self, lower: Vector, upper: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = NOBODY
@@ -983,7 +983,7 @@ class World:
         return Body(self, ids[0]), Body(self, ids[1]), Shape(self, ids[2]), Shape(self, ids[3])
 
     def _hits(self, read: Callable[..., int], *arguments: Any) -> List[records.Hit]:
-        return self._list(records.Hit, records.read_packed(read, records.HIT, self._capsule, *arguments))
+        return self._list(records.Hit, records.read_found(read, records.HIT, self._capsule, *arguments))
 
     def _list(self, kind: Type[Found], packed: Any) -> List[Found]:
         found: List[Found] = _flat.list_of(kind, self, self._capsule, packed)

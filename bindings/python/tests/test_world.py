@@ -144,6 +144,18 @@ def test_a_hit_has_the_fields_of_the_record(world: World) -> None:
     assert overlap.direction == (0, 1, 0) and overlap.depth == pytest.approx(0.25)
 
 
+@pytest.mark.parametrize("count", [0, 1, records.SOME - 1, records.SOME, records.SOME + 1, 3 * records.SOME])
+def test_a_query_brings_all_that_it_finds(world: World, count: int) -> None:
+    bodies = world.create_bodies([(0, i, 0) for i in range(count)], type="static")
+    shapes = [body.add_sphere(0.25) for body in bodies]
+    assert [hit.body for hit in world.raycast_all((0, -1, 0), (0, count + 1, 0))] == bodies == world.bodies
+    assert [hit.shape for hit in world.sweep_all(Sphere(0.1), (0, -1, 0), (0, count + 1, 0))] == shapes
+    assert world.overlap(Sphere(99), (0, 0, 0)) == bodies
+    assert [(o.body, o.shape) for o in world.overlap_shapes(Sphere(99), (0, 0, 0))] == list(zip(bodies, shapes))
+    assert world.overlap_bounds((-1, -1, -1), (1, count, 1)) == shapes
+    assert list(world.body_ids()) == [body.id for body in bodies]
+
+
 @pytest.mark.parametrize("group,touches", [(1, True), (-1, False), (0, False)])
 def test_groups_decide_before_layers(world: World, group: int, touches: bool) -> None:
     ground = world.create_body("static")
