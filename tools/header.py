@@ -62,9 +62,23 @@ class Function:
 
 
 @dataclass
+class Enumerator:
+    name: str
+    value: str
+    told: str
+
+
+@dataclass
+class Enum:
+    name: str
+    told: str
+    items: List[Enumerator]
+
+
+@dataclass
 class Header:
     structs: Dict[str, Struct] = field(default_factory=dict)
-    enums: Dict[str, List[str]] = field(default_factory=dict)  # enumerators of each
+    enums: Dict[str, Enum] = field(default_factory=dict)
     functions: Dict[str, Function] = field(default_factory=dict)
 
 
@@ -102,6 +116,11 @@ def read_declarator(text, kind, told):
     return Field(re.search(r"\w+", text)[0], kind, int(array[1]) if array else 0, "*" in text, told)
 
 
+def read_enumerators(body):
+    found = re.findall(r"^\s*(FE_\w+) = ([^,\n]+?),?[ ]*(?:///< (.*))?$", body, re.M)
+    return [Enumerator(*one) for one in found if "FORCE32" not in one[0]]
+
+
 def read_parameters(text):
     found = []
     for one in text.split(","):
@@ -115,10 +134,10 @@ def read(path=PATH):
     text = path.read_text(encoding="utf-8").split(SUGAR)[0]
     header = Header()
     for found in re.finditer(r"^typedef (struct|enum) (fe_\w+) \{(.*?)\n\} \2;", text, re.M | re.S):
+        told = comment_above(text, found.start())
         if found[1] == "enum":
-            header.enums[found[2]] = [n for n in re.findall(r"^\s*(FE_\w+) = ", found[3], re.M) if "FORCE32" not in n]
+            header.enums[found[2]] = Enum(found[2], told, read_enumerators(found[3]))
         else:
-            told = comment_above(text, found.start())
             header.structs[found[2]] = Struct(found[2], told, read_fields(found[3]))
     for found in re.finditer(r"^FE_API ([\w ]+?[ *]+)(fe_\w+)\(([^)]*)\);", text, re.M):
         told = comment_above(text, found.start())

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // Makes the calls of the JavaScript layer from the public header: api.js, its types api.d.ts, and the list of functions
 // that the module exports. What the layer wraps by hand is named in HAND, what it leaves out in LEFT_OUT, with a reason.
-//   generate.mjs header folder exports | generate.mjs header --missing | generate.mjs header --layout
+//   generate.mjs header folder exports | generate.mjs header --missing | generate.mjs header --layout | generate.mjs header --types
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const header = readFileSync(process.argv[2], 'utf8').split('// ---- sugar')[0];
@@ -469,8 +469,11 @@ export type Handle<T> = number | T;
 export const HitLayout: { ${hitLayout.map((l) => 'readonly ' + l).join('; ')} };
 ${Object.entries(enums).map(([name, words]) => `export type ${pascal(name)} = ${Object.keys(words).map((k) => `'${k}'`).join(' | ')};` + (!BITS.has(name) && name !== 'fe_dof' ? '' : `\nexport const ${pascal(name)}: { ${Object.entries(words).map(([k, v]) => `readonly ${k}: ${v}`).join('; ')} };`)).join('\n')}
 ${interfaces}${classesTs}`;
-const folder = process.argv[3];
-writeFileSync(`${folder}/api.js`, js);
-writeFileSync(`${folder}/api.d.ts`, ts);
-const exported = [...functions.map((f) => f.name).filter((n) => !LEFT_OUT[n]), 'fe_pool_create', 'malloc', 'free'];
-writeFileSync(process.argv[4], exported.map((n) => `-Wl,--export=${n}\n`).join(''));
+if (process.argv[3] === '--types') process.stdout.write(ts); // no exit: a pipe takes its time
+else {
+    const folder = process.argv[3];
+    writeFileSync(`${folder}/api.js`, js);
+    writeFileSync(`${folder}/api.d.ts`, ts);
+    const exported = [...functions.map((f) => f.name).filter((n) => !LEFT_OUT[n]), 'fe_pool_create', 'malloc', 'free'];
+    writeFileSync(process.argv[4], exported.map((n) => `-Wl,--export=${n}\n`).join(''));
+}

@@ -172,13 +172,13 @@ export class World extends WorldCalls {
     list(bodies: ArrayLike<Handle<Body>>): Bodies;
     /** The last frames of the world, to go back to. */
     createHistory(options?: HistoryDefOptions | null): History;
-    /** Begins a recording; a world has one at most. */
     /** Another world that is as this one is. */
     clone(options?: WorldDefOptions | null): World;
     createState(): State;
     /** The world becomes what the state is of: this one, a clone, or any that uses the same store. */
     setState(state: State): void;
     createBatch(count: number, options?: Omit<BatchDefOptions, 'worldCount'> | null): Batch;
+    /** Begins a recording; a world has one at most. */
     createRecorder(options?: RecorderDefOptions | null): Recorder;
     readonly store: Store;
     createHull(options: HullDefOptions | ArrayLike<number>): Hull;

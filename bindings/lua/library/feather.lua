@@ -376,6 +376,7 @@ function World:closestPoint(x, y, z, distance, given) end
 ---Destroys the world and all in it.
 function World:destroy() end
 
+---All or none: with one stale handle, or one given twice, none is destroyed.
 ---@param bodies feather.Body[]
 function World:destroyBodies(bodies) end
 
@@ -415,6 +416,7 @@ function World:getBodies() end
 ---@return table
 function World:getBodyEvents() end
 
+---All bodies, in the order of creation.
 ---@return any
 function World:getBodyIds() end
 
@@ -427,6 +429,7 @@ function World:getBodyIds() end
 ---@return number
 function World:getBounds() end
 
+---Events of the last step, ordered by the creation of A, then B.
 ---@return any
 function World:getContactEvents() end
 
@@ -437,6 +440,7 @@ function World:getCounters() end
 ---@return table
 function World:getEnergy() end
 
+---All or none.
 ---@param bodies feather.Body[]
 ---@return any
 function World:getExactTransforms(bodies) end
@@ -446,6 +450,7 @@ function World:getExactTransforms(bodies) end
 ---@return number
 function World:getGravity() end
 
+---64 bits over poses, velocities, contacts, joints and events, low word first.
 ---@return string
 function World:getHash() end
 
@@ -550,12 +555,12 @@ function World:ignoreCollision(a, b, ignore) end
 ---@return boolean
 function World:isDestroyed() end
 
+---1 while fe_world_ignore_collision keeps the two apart, else 0.
 ---@param a feather.Body|nil
 ---@param b feather.Body|nil
 ---@return boolean
 function World:isIgnored(a, b) end
 
----A new world from the bytes: as fe_world_create and fe_world_restore.
 ---@param bytes string
 ---@return feather.Hull|feather.Mesh|feather.Heightfield|feather.Compound
 function World:load(bytes) end
@@ -572,6 +577,8 @@ function World:newBallJoint(given) end
 ---@return feather.Batch
 function World:newBatch(count, given) end
 
+---A dynamic body whose shapes weigh less than 1e-9 kg together, or that has none, gets 1 kg and the inertia of a
+---sphere of 1 m, until it gets a shape or a mass.
 ---@param given? feather.BodyOptions
 ---@return feather.Body
 function World:newBody(given) end
@@ -677,6 +684,7 @@ function World:overlapBounds(lower_x, lower_y, lower_z, upper_x, upper_y, upper_
 ---@return any
 function World:overlapShapes(form, place, given) end
 
+---The first body on a segment.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -687,6 +695,7 @@ function World:overlapShapes(form, place, given) end
 ---@return any
 function World:rayCast(x, y, z, dx, dy, dz, given) end
 
+---Every body on a segment, each once, at its first hit, ordered by fraction, then by creation.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -697,6 +706,7 @@ function World:rayCast(x, y, z, dx, dy, dz, given) end
 ---@return any
 function World:rayCastAll(x, y, z, dx, dy, dz, given) end
 
+---Is anything on the segment? Faster than the first hit: it stops at whatever it finds.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -820,6 +830,7 @@ function World:update(dt) end
 ---@class feather.Body
 local Body = {}
 
+---N m s.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -843,6 +854,7 @@ function Body:applyForce(x, y, z, px, py, pz) end
 ---@param pz? number
 function Body:applyImpulse(x, y, z, px, py, pz) end
 
+---N m, world axes, during all of the next step only.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -855,6 +867,7 @@ function Body:applyTorque(x, y, z) end
 ---@return any
 function Body:closestPoint(x, y, z) end
 
+---Destroys its shapes and joints too.
 function Body:destroy() end
 
 ---@return number
@@ -952,6 +965,7 @@ function Body:getType() end
 ---@return any
 function Body:getUserData() end
 
+---Of the material point that is now at `point`, m/s.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -977,6 +991,7 @@ function Body:isEnabled() end
 ---@return boolean
 function Body:isSleepAllowed() end
 
+---Gives a kinematic body the velocities that bring it to `target` in `seconds`.
 ---@param transform any
 ---@param seconds number
 ---@return any
@@ -1035,6 +1050,7 @@ function Body:newMesh(mesh, given) end
 ---@return feather.Shape
 function Body:newPlane(nx, ny, nz, distance, given) end
 
+---Mass and inertia of the body follow; it is not woken.
 ---@param form any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
@@ -1154,6 +1170,7 @@ local Shape = {}
 ---@return any
 function Shape:closestPoint(x, y, z) end
 
+---Its touching pairs send their exit.
 function Shape:destroy() end
 
 ---@return feather.Body
@@ -1249,6 +1266,7 @@ function Shape:setEvents(events) end
 ---@param group integer
 function Shape:setFilter(layer, mask, group) end
 
+---Another form in the same place.
 ---@param form any
 function Shape:setForm(form) end
 
@@ -1296,6 +1314,7 @@ function Shape:setUserData(value) end
 ---@class feather.Joint
 local Joint = {}
 
+---Its bodies wake.
 function Joint:destroy() end
 
 ---@return any
@@ -1431,6 +1450,7 @@ function Store:newMesh(given) end
 ---@class feather.Pool
 local Pool = {}
 
+---Ends the threads.
 function Pool:close() end
 
 ---@class feather.Hull
