@@ -939,6 +939,7 @@ FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_d
 FE_API fe_result fe_shape_destroy(fe_world *world, fe_shape shape);
 /// 1 for a living shape of this world, 0 for anything else.
 FE_API int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape);
+/// The body that it belongs to.
 FE_API fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body);
 /// Another form in the same place. Pairs, mass and sleep follow as for fe_shape_destroy.
 /// @return the errors of fe_shape_create

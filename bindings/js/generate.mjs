@@ -462,6 +462,7 @@ export interface Vec3 { x: number; y: number; z: number }
 export interface Quat { x: number; y: number; z: number; w: number }
 /** Given: an object with x, y, z or an array of 3. */
 export type Vec3Like = Readonly<Vec3> | readonly [number, number, number] | Float32Array | Float64Array;
+/** Given: an object with x, y, z, w or an array of 4. */
 export type QuatLike = Readonly<Quat> | readonly [number, number, number, number] | Float32Array | Float64Array;
 /** A handle, or the object that has it. */
 export type Handle<T> = number | T;

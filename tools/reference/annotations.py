@@ -74,6 +74,15 @@ RETURNS = {
     "getWorld": "feather.World",
     "getStore": "feather.Store",
     "getHash": "string",
+    "getEnergy": ["number", "number"],
+    "getMoved": ["feather.Body[]", "number[]"],
+    "World:getTransforms": "number[]",
+    "getExactTransforms": "number[]",
+    "getVelocities": "number[]",
+    "getJointCoordinates": "number[]",
+    "getJointReactions": "number[]",
+    "getUserData": "any",
+    "getBodyIds": "integer[]",
     "clone": "feather.World",
     "save": "string",
     "getType": "string",
@@ -110,10 +119,18 @@ for owner in ("Hull", "Mesh", "Heightfield", "Compound"):
     ALSO[owner] = {
         "destroy": ([], [], "The handle dies at once, what it names with its last shape."),
         "getKey": ([], ["string"], "What it is known by outside its store: equal where the content is."),
-        "getStore": ([], ["feather.Store"], ""),
-        "isDestroyed": ([], ["boolean"], ""),
+        "getStore": ([], ["feather.Store"], "The store that it is in."),
+        "isDestroyed": ([], ["boolean"], "True once it is destroyed, or its store."),
         "save": ([], ["string"], "As bytes, for store:load."),
     }
+# What objects.life makes
+LIFE = (
+    ("isDestroyed", [], "True once it is destroyed, or its world."),
+    ("destroy", [], ""),
+    ("getWorld", [], "The world that it belongs to."),
+    ("setUserData", ["value"], "Any value of yours; getUserData returns it."),
+    ("getUserData", [], "What setUserData or the table of options gave; nil at first."),
+)
 # Joints: the definition that the options fill, and what they name besides
 ENDS = {"bodyA": "feather.Body|nil", "bodyB": "feather.Body|nil", "userData": "any"}
 PLACES = {name: "number[]" for name in ("pointA", "pointB", "point", "axis", "up")}
@@ -202,14 +219,8 @@ def read_methods():
                 if put in FUNCTIONS:
                     methods[name]["set" + method] = (None, "", put, [put])
         for name in re.findall(r"objects\.life\((\w+)", text):
-            for method, names in (
-                ("isDestroyed", []),
-                ("destroy", []),
-                ("getWorld", []),
-                ("setUserData", ["value"]),
-                ("getUserData", []),
-            ):
-                methods[name].setdefault(method, (names, "", None, guessed(name, method)))
+            for method, names, told in LIFE:
+                methods[name].setdefault(method, (names, told, None, guessed(name, method)))
         lines = text.split("\n")
         for i, line in enumerate(lines):
             found = re.match(r"function (\w+):(\w+)\(([^)]*)\)", line)

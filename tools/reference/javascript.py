@@ -127,6 +127,8 @@ class Reader:
         if joint and kind in ("world", "joint"):
             front = f"fe_{joint[2]}_joint_"
             tried = [front + "def_at", front + "create"] if joint[1] == "add" else [front + joint[1] + (joint[3] or "")]
+        if kind == "joint" and method in JOINTS:
+            tried = [f"fe_{method}_joint_get", f"fe_{method}_joint_set"]
         return [one for one in tried if one in self.functions]
 
 

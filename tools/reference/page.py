@@ -221,8 +221,8 @@ class Writer:
     def comment_of(self, function):
         """What a function says, else what the header says of it elsewhere."""
         header = self.words.header
-        told = header.functions[function].told
-        return split_comment(told) if told else (self.said_elsewhere(header, function), {}, "")
+        prose, parameters, returned = split_comment(header.functions[function].told)
+        return prose or self.said_elsewhere(header, function), parameters, returned
 
     @staticmethod
     def said_elsewhere(header, function):
@@ -234,7 +234,7 @@ class Writer:
         first = re.sub(r"fe_[a-z]+_joint_def_at$", "fe_distance_joint_def_at", first)
         fields = header.structs[f"fe_{found[1]}_def"].fields if found and f"fe_{found[1]}_def" in header.structs else []
         outs = [p.kind for p in header.functions[function].parameters if p.name.startswith("out_")]
-        tried = [header.functions[name].told for name in (setter, first) if name in header.functions]
+        tried = [header.functions[name].told for name in (setter, first) if name in header.functions and name != function]
         tried += [f.told for f in fields if f.name == found[2]]
         tried += [header.structs[kind].told for kind in outs if kind in header.structs and len(outs) == 1]
         prose = next((one for one in (split_comment(text)[0] for text in tried) if one), "")

@@ -5,6 +5,7 @@ export interface Vec3 { x: number; y: number; z: number }
 export interface Quat { x: number; y: number; z: number; w: number }
 /** Given: an object with x, y, z or an array of 3. */
 export type Vec3Like = Readonly<Vec3> | readonly [number, number, number] | Float32Array | Float64Array;
+/** Given: an object with x, y, z, w or an array of 4. */
 export type QuatLike = Readonly<Quat> | readonly [number, number, number, number] | Float32Array | Float64Array;
 /** A handle, or the object that has it. */
 export type Handle<T> = number | T;
@@ -1753,6 +1754,7 @@ export class ShapeCalls {
     destroy(): void;
     /** 1 for a living shape of this world, 0 for anything else. */
     get isValid(): boolean;
+    /** The body that it belongs to. */
     get body(): number;
     /** Another form in the same place. Pairs, mass and sleep follow as for fe_shape_destroy.
      * @return the errors of fe_shape_create */

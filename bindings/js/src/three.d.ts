@@ -6,9 +6,13 @@ interface Instanced { count: number; readonly instanceMatrix: { readonly count: 
 export class BodyInstances<Mesh extends Instanced = Instanced> {
     /** @param scales  3 numbers a body, or 3 for all; default 1, 1, 1 */
     constructor(mesh: Mesh, world: World, bodies: readonly (Body | number)[], scales?: ArrayLike<number>);
+    /** What it draws into. */
     readonly mesh: Mesh;
+    /** The world that its bodies are of. */
     readonly world: World;
+    /** Handles of the bodies, by instance. */
     readonly ids: readonly number[];
+    /** The handle of an instance's body. */
     bodyOf(instance: number): number;
     /** Once after each step. */
     keep(moved: Moved): void;

@@ -39,7 +39,9 @@ end
 -- ---- where it is and how it moves -----------------------------------------------------------------------------------
 
 local rotation = { 0, 0, 0, 1 }
+-- Of its origin, m. Moves it at once, through whatever is between, and wakes it.
 function Body:setPosition(x, y, z) core.body_set_position(self.native, self.id, xyz(x, y, z)) end
+-- x, y, z, w, any length but zero. Turns it at once, and wakes it.
 function Body:setRotation(x, y, z, w)
     rotation[1], rotation[2], rotation[3], rotation[4] = x, y, z, w
     core.body_set_rotation(self.native, self.id, rotation)

@@ -35,7 +35,9 @@ function Store:newCompound(parts)
     for i = 1, #parts do made[i] = part_of(parts[i]) end
     return asset_of(self, Compound, core.compound_create(self.native, made))
 end
+-- In the world's store, as Store:newCompound.
 function World:newCompound(parts) return self:getStore():newCompound(parts) end
+-- A shape of a compound: its parts are in the shape's frame.
 function Body:newCompound(compound, given) return self:newShape({ "compound", compound }, given) end
 
 function Compound:getInfo() return options.read(core.compound_get_info(self.native, self.id), "fe_compound_info") end

@@ -29,4 +29,5 @@ function History:getFrames()
     return frames
 end
 
+-- Ends it and gives its memory back.
 function History:close() core.history_destroy(self.native) end

@@ -34,6 +34,7 @@ local function fill(def, kind, given, elsewhere)
     end
 end
 
+-- What newBallJoint and its like were given, as it is now: a table of the same names.
 function Joint:getDefinition()
     local kind = self:getType()
     local record = core[kind .. "_joint_get"](self.native, self.id)

@@ -79,6 +79,7 @@ local function drain(self)
     if not written then self.failure = tostring(why) end
 end
 
+-- World:update calls it: it writes what is new, now and then.
 function Recording:afterStep()
     self.steps = self.steps + 1
     if self.steps < self.interval then return end
@@ -86,6 +87,7 @@ function Recording:afterStep()
     drain(self)
 end
 
+-- Leaves words at this moment, about a body, a shape, a joint or nothing.
 function Recording:note(text, about) self.recorder:note(text, about) end
 
 -- Writes all that was recorded until now. An error for what went wrong since it began.

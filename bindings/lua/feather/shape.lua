@@ -84,18 +84,28 @@ function Body:newShape(form, given)
     self.world.data[id] = given and given.userData
     return objects.of(self.world, Shape, id)
 end
+-- A ball, by its radius, m.
 function Body:newSphere(radius, given) return self:newShape({ "sphere", radius }, given) end
+-- A rod with round ends along local Y: half the height of its axis, and its radius, m.
 function Body:newCapsule(half_height, radius, given) return self:newShape({ "capsule", half_height, radius }, given) end
+-- A box, by half its edges, m.
 function Body:newBox(x, y, z, given) return self:newShape({ "box", x, y, z }, given) end
+-- A cylinder along local Y: half its height, and its radius, m.
 function Body:newCylinder(half_height, radius, given) return self:newShape({ "cylinder", half_height, radius }, given) end
+-- A cone along local Y, its tip up: half its height, and the radius of its base, m.
 function Body:newCone(half_height, radius, given) return self:newShape({ "cone", half_height, radius }, given) end
+-- A shape of a hull; its points are in the shape's frame.
 function Body:newHull(hull, given) return self:newShape({ "hull", hull }, given) end
+-- A shape of a mesh, on a static or kinematic body; its vertices are in the shape's frame.
 function Body:newMesh(mesh, given) return self:newShape({ "mesh", mesh }, given) end
+-- The half space normal . p <= distance, on a static body.
 function Body:newPlane(nx, ny, nz, distance, given) return self:newShape({ "plane", nx, ny, nz, distance }, given) end
+-- A shape of a heightfield, on a static body: terrain in the shape's frame.
 function Body:newHeightfield(field, given) return self:newShape({ "heightfield", field }, given) end
 
 -- ---- what they are --------------------------------------------------------------------------------------------------
 
+-- The body that it belongs to.
 function Shape:getBody() return objects.of(self.world, Body, core.shape_get_body(self.native, self.id)) end
 function Shape:setFilter(layer, mask, group) core.shape_set_filter(self.native, self.id, layer, mask, group or 0) end
 function Shape:setFrame(x, y, z, qx, qy, qz, qw)

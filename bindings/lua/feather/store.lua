@@ -12,6 +12,7 @@ local shared = {}
 function shared.new_pool(workers) return setmetatable({ native = core.pool_create(workers) }, Pool) end
 function Pool:close() core.pool_destroy(self.native) end
 
+-- { number = 0 }, or nothing: its number is part of its assets' handles, 0 takes the next free one.
 function shared.new_store(given)
     local def = core.store_def()
     for name, value in pairs(given or {}) do options.put(def, "fe_store_def", name, value) end
@@ -32,6 +33,7 @@ function Store:destroy()
     core.store_destroy(self.native)
     self.destroyed = true
 end
+-- True after destroy(); of a world's own store, after the world's.
 function Store:isDestroyed() return self.destroyed == true or (self.world ~= nil and self.world:isDestroyed()) end
 function Store:getBytes() return core.store_get_bytes(self.native) end
 
@@ -67,6 +69,7 @@ function Store:load(bytes)
     local id = core.asset_load(self.native, bytes)
     return shared.asset_of(self, CLASSES[core.asset_get_type(self.native, id)], id)
 end
+-- The same, in the world's store.
 function World:load(bytes) return self:getStore():load(bytes) end
 
 local function numbers_of_materials(materials)
@@ -95,6 +98,7 @@ function Store:newHeightfield(given)
         materials = numbers_of_materials(given.materials),
     }))
 end
+-- In the world's store, as Store:newHeightfield.
 function World:newHeightfield(given) return self:getStore():newHeightfield(given) end
 
 function Heightfield:setHeights(row, column, rows, columns, heights)
@@ -114,6 +118,7 @@ function Store:newHull(given)
         points = given.points, max_vertices = given.maxVertices or 64, tolerance = given.tolerance or 0,
     }))
 end
+-- In the world's store, as Store:newHull.
 function World:newHull(given) return self:getStore():newHull(given) end
 
 function Hull:getInfo() return options.read(core.hull_get_info(self.native, self.id), "fe_hull_info") end
@@ -152,6 +157,7 @@ function Store:newMesh(given)
         triangle_data = given.triangleData,
     }))
 end
+-- In the world's store, as Store:newMesh.
 function World:newMesh(given) return self:getStore():newMesh(given) end
 
 function Mesh:getInfo() return options.read(core.mesh_get_info(self.native, self.id), "fe_mesh_info") end

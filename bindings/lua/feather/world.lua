@@ -41,8 +41,11 @@ function World:destroy()
     core.world_destroy(self.native)
     self.destroyed, self.data = true, {}
 end
+-- True after destroy().
 function World:isDestroyed() return self.destroyed == true end
+-- Any value of yours; getUserData returns it.
 function World:setUserData(value) self.data[0] = value end
+-- What setUserData or newWorld's table gave; nil at first.
 function World:getUserData() return self.data[0] end
 
 -- ---- the step -------------------------------------------------------------------------------------------------------

@@ -417,7 +417,7 @@ function World:getBodies() end
 function World:getBodyEvents() end
 
 ---All bodies, in the order of creation.
----@return any
+---@return integer[]
 function World:getBodyIds() end
 
 ---lower x, y, z, upper x, y, z
@@ -437,12 +437,13 @@ function World:getContactEvents() end
 function World:getCounters() end
 
 ---kinetic, potential
----@return table
+---@return number
+---@return number
 function World:getEnergy() end
 
 ---All or none.
 ---@param bodies feather.Body[]
----@return any
+---@return number[]
 function World:getExactTransforms(bodies) end
 
 ---@return number
@@ -467,7 +468,7 @@ function World:getHitEvents() end
 
 ---angle or translation, and its rate: 2 numbers a joint
 ---@param joints feather.Joint[]
----@return number
+---@return number[]
 function World:getJointCoordinates(joints) end
 
 ---A body of nil is the world.
@@ -476,7 +477,7 @@ function World:getJointEvents() end
 
 ---force and torque: 6 numbers a joint
 ---@param joints feather.Joint[]
----@return number
+---@return number[]
 function World:getJointReactions(joints) end
 
 ---All joints, in the order of creation.
@@ -496,14 +497,8 @@ function World:getJoints() end
 function World:getMomentum(x, y, z) end
 
 ---the bodies that the last step moved, and 7 numbers for each
----@return feather.Body
----@return number
----@return number
----@return number
----@return number
----@return number
----@return number
----@return number
+---@return feather.Body[]
+---@return number[]
 function World:getMoved() end
 
 ---The number in this world's handles, 1..4095.
@@ -526,24 +521,19 @@ function World:getTag() end
 ---x, y, z relative to an origin, and the rotation: 7 numbers a body
 ---@param bodies feather.Body[]
 ---@param origin any
----@return number
----@return number
----@return number
----@return number
----@return number
----@return number
----@return number
+---@return number[]
 function World:getTransforms(bodies, origin) end
 
 ---@return feather.Tuning
 function World:getTuning() end
 
----@return integer
+---What setUserData or newWorld's table gave; nil at first.
+---@return any
 function World:getUserData() end
 
 ---linear and angular: 6 numbers a body
 ---@param bodies feather.Body[]
----@return number
+---@return number[]
 function World:getVelocities(bodies) end
 
 ---While ignored, two bodies never collide, whatever their layers and groups.
@@ -552,6 +542,7 @@ function World:getVelocities(bodies) end
 ---@param ignore any
 function World:ignoreCollision(a, b, ignore) end
 
+---True after destroy().
 ---@return boolean
 function World:isDestroyed() end
 
@@ -561,6 +552,7 @@ function World:isDestroyed() end
 ---@return boolean
 function World:isIgnored(a, b) end
 
+---The same, in the world's store.
 ---@param bytes string
 ---@return feather.Hull|feather.Mesh|feather.Heightfield|feather.Compound
 function World:load(bytes) end
@@ -583,6 +575,7 @@ function World:newBatch(count, given) end
 ---@return feather.Body
 function World:newBody(given) end
 
+---In the world's store, as Store:newCompound.
 ---@param parts any
 ---@return feather.Compound
 function World:newCompound(parts) end
@@ -599,6 +592,7 @@ function World:newDistanceJoint(given) end
 ---@return feather.Joint
 function World:newFixedJoint(given) end
 
+---In the world's store, as Store:newHeightfield.
 ---@param given? table
 ---@return feather.Heightfield
 function World:newHeightfield(given) end
@@ -613,10 +607,12 @@ function World:newHingeJoint(given) end
 ---@return feather.History
 function World:newHistory(given) end
 
+---In the world's store, as Store:newHull.
 ---@param given? table
 ---@return feather.Hull
 function World:newHull(given) end
 
+---In the world's store, as Store:newMesh.
 ---@param given? table
 ---@return feather.Mesh
 function World:newMesh(given) end
@@ -791,6 +787,7 @@ function World:setTransforms(bodies, numbers) end
 ---@param given? feather.Tuning
 function World:setTuning(given) end
 
+---Any value of yours; getUserData returns it.
 ---@param value any
 function World:setUserData(value) end
 
@@ -962,6 +959,7 @@ function Body:getTransform() end
 ---@return string
 function Body:getType() end
 
+---What setUserData or the table of options gave; nil at first.
 ---@return any
 function Body:getUserData() end
 
@@ -972,6 +970,7 @@ function Body:getUserData() end
 ---@return any
 function Body:getVelocityAt(x, y, z) end
 
+---The world that it belongs to.
 ---@return feather.World
 function Body:getWorld() end
 
@@ -982,6 +981,7 @@ function Body:isAwake() end
 ---@return boolean
 function Body:isBullet() end
 
+---True once it is destroyed, or its world.
 ---@return boolean
 function Body:isDestroyed() end
 
@@ -997,6 +997,7 @@ function Body:isSleepAllowed() end
 ---@return any
 function Body:moveTo(transform, seconds) end
 
+---A box, by half its edges, m.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -1004,44 +1005,52 @@ function Body:moveTo(transform, seconds) end
 ---@return feather.Shape
 function Body:newBox(x, y, z, given) end
 
+---A rod with round ends along local Y: half the height of its axis, and its radius, m.
 ---@param half_height any
 ---@param radius any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newCapsule(half_height, radius, given) end
 
+---A shape of a compound: its parts are in the shape's frame.
 ---@param compound feather.Compound
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newCompound(compound, given) end
 
+---A cone along local Y, its tip up: half its height, and the radius of its base, m.
 ---@param half_height any
 ---@param radius any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newCone(half_height, radius, given) end
 
+---A cylinder along local Y: half its height, and its radius, m.
 ---@param half_height any
 ---@param radius any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newCylinder(half_height, radius, given) end
 
+---A shape of a heightfield, on a static body: terrain in the shape's frame.
 ---@param field any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newHeightfield(field, given) end
 
+---A shape of a hull; its points are in the shape's frame.
 ---@param hull feather.Hull
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newHull(hull, given) end
 
+---A shape of a mesh, on a static or kinematic body; its vertices are in the shape's frame.
 ---@param mesh feather.Mesh
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
 function Body:newMesh(mesh, given) end
 
+---The half space normal . p <= distance, on a static body.
 ---@param nx number
 ---@param ny number
 ---@param nz number
@@ -1056,6 +1065,7 @@ function Body:newPlane(nx, ny, nz, distance, given) end
 ---@return feather.Shape
 function Body:newShape(form, given) end
 
+---A ball, by its radius, m.
 ---@param radius any
 ---@param given? feather.ShapeOptions
 ---@return feather.Shape
@@ -1127,11 +1137,13 @@ function Body:setMass(mass) end
 ---@param data any
 function Body:setMassData(data) end
 
+---Of its origin, m. Moves it at once, through whatever is between, and wakes it.
 ---@param x number
 ---@param y number
 ---@param z number
 function Body:setPosition(x, y, z) end
 
+---x, y, z, w, any length but zero. Turns it at once, and wakes it.
 ---@param x number
 ---@param y number
 ---@param z number
@@ -1157,6 +1169,7 @@ function Body:setTransform(...) end
 ---@param text string
 function Body:setType(text) end
 
+---Any value of yours; getUserData returns it.
 ---@param value any
 function Body:setUserData(value) end
 
@@ -1173,6 +1186,7 @@ function Shape:closestPoint(x, y, z) end
 ---Its touching pairs send their exit.
 function Shape:destroy() end
 
+---The body that it belongs to.
 ---@return feather.Body
 function Shape:getBody() end
 
@@ -1230,12 +1244,15 @@ function Shape:getSurfaceVelocity() end
 ---@return integer
 function Shape:getTag() end
 
+---What setUserData or the table of options gave; nil at first.
 ---@return any
 function Shape:getUserData() end
 
+---The world that it belongs to.
 ---@return feather.World
 function Shape:getWorld() end
 
+---True once it is destroyed, or its world.
 ---@return boolean
 function Shape:isDestroyed() end
 
@@ -1308,6 +1325,7 @@ function Shape:setTag(userData) end
 ---@param value any
 function Shape:setTrigger(value) end
 
+---Any value of yours; getUserData returns it.
 ---@param value any
 function Shape:setUserData(value) end
 
@@ -1325,6 +1343,7 @@ function Joint:getAngle() end
 ---@return feather.Body
 function Joint:getBodies() end
 
+---What newBallJoint and its like were given, as it is now: a table of the same names.
 ---@return any
 function Joint:getDefinition() end
 
@@ -1365,12 +1384,15 @@ function Joint:getTag() end
 ---@return string
 function Joint:getType() end
 
+---What setUserData or the table of options gave; nil at first.
 ---@return any
 function Joint:getUserData() end
 
+---The world that it belongs to.
 ---@return feather.World
 function Joint:getWorld() end
 
+---True once it is destroyed, or its world.
 ---@return boolean
 function Joint:isDestroyed() end
 
@@ -1400,6 +1422,7 @@ function Joint:setTag(userData) end
 ---@param w number
 function Joint:setTarget(target, dof, z, w) end
 
+---Any value of yours; getUserData returns it.
 ---@param value any
 function Joint:setUserData(value) end
 
@@ -1413,6 +1436,7 @@ function Store:destroy() end
 ---@return any
 function Store:getBytes() end
 
+---True after destroy(); of a world's own store, after the world's.
 ---@return boolean
 function Store:isDestroyed() end
 
@@ -1470,6 +1494,7 @@ function Hull:getInfo() end
 ---@return string
 function Hull:getKey() end
 
+---The store that it is in.
 ---@return feather.Store
 function Hull:getStore() end
 
@@ -1477,6 +1502,7 @@ function Hull:getStore() end
 ---@return any
 function Hull:getVertices() end
 
+---True once it is destroyed, or its store.
 ---@return boolean
 function Hull:isDestroyed() end
 
@@ -1497,6 +1523,7 @@ function Mesh:getInfo() end
 ---@return string
 function Mesh:getKey() end
 
+---The store that it is in.
 ---@return feather.Store
 function Mesh:getStore() end
 
@@ -1506,6 +1533,7 @@ function Mesh:getStore() end
 ---@return any
 function Mesh:getTriangle(number) end
 
+---True once it is destroyed, or its store.
 ---@return boolean
 function Mesh:isDestroyed() end
 
@@ -1534,9 +1562,11 @@ function Heightfield:getHeights(row, column, rows, columns) end
 ---@return string
 function Heightfield:getKey() end
 
+---The store that it is in.
 ---@return feather.Store
 function Heightfield:getStore() end
 
+---True once it is destroyed, or its store.
 ---@return boolean
 function Heightfield:isDestroyed() end
 
@@ -1570,9 +1600,11 @@ function Compound:getKey() end
 ---@return any
 function Compound:getPart(number) end
 
+---The store that it is in.
 ---@return feather.Store
 function Compound:getStore() end
 
+---True once it is destroyed, or its store.
 ---@return boolean
 function Compound:isDestroyed() end
 
@@ -1583,6 +1615,7 @@ function Compound:save() end
 ---@class feather.History
 local History = {}
 
+---Ends it and gives its memory back.
 function History:close() end
 
 ---{ frame = 3, bytes = 5000 } for each, the oldest first: its number, and what it holds that the one before has not.
@@ -1619,6 +1652,7 @@ function Recorder:read() end
 ---@class feather.Recording
 local Recording = {}
 
+---World:update calls it: it writes what is new, now and then.
 ---@return any
 function Recording:afterStep() end
 
@@ -1629,6 +1663,7 @@ function Recording:close() end
 ---@return any
 function Recording:flush() end
 
+---Leaves words at this moment, about a body, a shape, a joint or nothing.
 ---@param text string
 ---@param about any
 ---@return any
