@@ -142,7 +142,7 @@ typedef struct fe_bounds {
 
 /// What a call came to. Below 0: an error, and nothing has changed.
 typedef enum fe_result {
-    FE_OK = 0,
+    FE_OK = 0,                 ///< done
     FE_FOREIGN = 2,            ///< done, from data of a library whose results differ
     FE_END = 3,                ///< done, and there is no more
     FE_ERROR_ARGUMENT = -1,    ///< NULL, NaN, infinity, out of range
@@ -249,11 +249,11 @@ FE_API fe_result fe_asset_load(fe_store *store, const void *bytes, int64_t size,
 /// How the values of two materials mix. The pair uses the higher mode of the two: ice with FE_COMBINE_MINIMUM is
 /// slippery on any floor whose mode is lower.
 typedef enum fe_combine {
-    FE_COMBINE_DEFAULT = 0, ///< friction: geometric mean, sqrt(a b); restitution: maximum
-    FE_COMBINE_AVERAGE = 1,
-    FE_COMBINE_MINIMUM = 2,
-    FE_COMBINE_MULTIPLY = 3,
-    FE_COMBINE_MAXIMUM = 4,
+    FE_COMBINE_DEFAULT = 0,  ///< friction: geometric mean, sqrt(a b); restitution: maximum
+    FE_COMBINE_AVERAGE = 1,  ///< (a + b) / 2
+    FE_COMBINE_MINIMUM = 2,  ///< the smaller
+    FE_COMBINE_MULTIPLY = 3, ///< a b
+    FE_COMBINE_MAXIMUM = 4,  ///< the larger
     FE_COMBINE_FORCE32 = 0x7fffffff
 } fe_combine;
 
@@ -497,11 +497,11 @@ FE_API fe_result fe_mesh_set_materials(fe_store *store, fe_asset mesh, const fe_
 typedef enum fe_simd {
     FE_SIMD_AUTO = 0,  ///< the widest of this CPU; the environment variable FE_SIMD = plain, sse2, avx2... overrides it
     FE_SIMD_PLAIN = 1, ///< C without intrinsics
-    FE_SIMD_SSE2 = 2,
-    FE_SIMD_AVX2 = 3,
-    FE_SIMD_AVX512 = 4,
-    FE_SIMD_NEON = 5,
-    FE_SIMD_WASM = 6, ///< of WebAssembly
+    FE_SIMD_SSE2 = 2,  ///< of x86, 4 floats
+    FE_SIMD_AVX2 = 3,  ///< of x86, 8 floats
+    FE_SIMD_AVX512 = 4, ///< of x86, 16 floats
+    FE_SIMD_NEON = 5,   ///< of AArch64, 4 floats
+    FE_SIMD_WASM = 6,   ///< of WebAssembly
     FE_SIMD_FORCE32 = 0x7fffffff
 } fe_simd;
 
@@ -714,11 +714,11 @@ typedef enum fe_body_type {
 
 /// World axes as bits.
 typedef enum fe_axis {
-    FE_AXIS_NONE = 0,
-    FE_AXIS_X = 1,
-    FE_AXIS_Y = 2,
-    FE_AXIS_Z = 4,
-    FE_AXIS_ALL = 7,
+    FE_AXIS_NONE = 0, ///< no axis
+    FE_AXIS_X = 1,    ///< 1, 0, 0
+    FE_AXIS_Y = 2,    ///< 0, 1, 0
+    FE_AXIS_Z = 4,    ///< 0, 0, 1
+    FE_AXIS_ALL = 7,  ///< all three
     FE_AXIS_FORCE32 = 0x7fffffff
 } fe_axis;
 
@@ -863,7 +863,7 @@ FE_API fe_result fe_body_get_bounds(const fe_world *world, fe_body body, fe_boun
 
 /// The kinds of forms, and the fields of fe_geometry that each reads.
 typedef enum fe_geometry_type {
-    FE_GEOMETRY_NONE = 0,
+    FE_GEOMETRY_NONE = 0,         ///< no form yet
     FE_GEOMETRY_SPHERE = 1,       ///< radius
     FE_GEOMETRY_CAPSULE = 2,      ///< half_height of the axis, along local Y, and radius
     FE_GEOMETRY_BOX = 3,          ///< half_extents
@@ -899,7 +899,7 @@ FE_API void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size);
 
 /// The events that a shape asks for, as bits.
 typedef enum fe_shape_events {
-    FE_SHAPE_EVENTS_NONE = 0,
+    FE_SHAPE_EVENTS_NONE = 0,  ///< no events
     FE_SHAPE_EVENTS_TOUCH = 1, ///< enter and exit
     FE_SHAPE_EVENTS_STAY = 2,  ///< every step while it lasts
     FE_SHAPE_EVENTS_HIT = 4,   ///< impacts above fe_world_tuning.hit_event_threshold
@@ -1212,13 +1212,13 @@ typedef struct fe_fixed_joint_def {
 typedef enum fe_motion {
     FE_MOTION_LOCKED = 0,  ///< stays 0
     FE_MOTION_LIMITED = 1, ///< within lower..upper
-    FE_MOTION_FREE = 2,
+    FE_MOTION_FREE = 2,    ///< without limits
     FE_MOTION_FORCE32 = 0x7fffffff
 } fe_motion;
 
 /// How the spring of one axis of a configurable joint is given.
 typedef enum fe_spring {
-    FE_SPRING_NONE = 0,
+    FE_SPRING_NONE = 0,      ///< no spring
     FE_SPRING_HERTZ = 1,     ///< by spring_hertz and spring_damping_ratio, on the masses that move
     FE_SPRING_STIFFNESS = 2, ///< by spring_stiffness and spring_damping
     FE_SPRING_FORCE32 = 0x7fffffff
@@ -1244,9 +1244,9 @@ typedef struct fe_joint_axis {
 
 /// Degrees of freedom: indices of fe_configurable_joint_def.axes.
 typedef enum fe_dof {
-    FE_DOF_LINEAR_X = 0, ///< translation
-    FE_DOF_LINEAR_Y = 1,
-    FE_DOF_LINEAR_Z = 2,
+    FE_DOF_LINEAR_X = 0,  ///< translation
+    FE_DOF_LINEAR_Y = 1,  ///< translation
+    FE_DOF_LINEAR_Z = 2,  ///< translation
     FE_DOF_ANGULAR_X = 3, ///< twist
     FE_DOF_ANGULAR_Y = 4, ///< swing_y
     FE_DOF_ANGULAR_Z = 5, ///< swing_z
@@ -1409,7 +1409,7 @@ FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint 
 
 /// What a query sees besides bodies, as bits.
 typedef enum fe_query_flags {
-    FE_QUERY_DEFAULT = 0,
+    FE_QUERY_DEFAULT = 0,  ///< no triggers
     FE_QUERY_TRIGGERS = 1, ///< triggers count too
     FE_QUERY_FORCE32 = 0x7fffffff
 } fe_query_flags;
@@ -1427,7 +1427,7 @@ FE_API void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size);
 
 /// What a hit is besides, as bits.
 typedef enum fe_hit_flags {
-    FE_HIT_DEFAULT = 0,
+    FE_HIT_DEFAULT = 0,        ///< from outside, on the front
     FE_HIT_STARTED_INSIDE = 1, ///< overlaps at the start: fraction 0
     FE_HIT_BACK = 2,           ///< met a triangle of a two-sided mesh from behind
     FE_HIT_FORCE32 = 0x7fffffff
@@ -1630,12 +1630,12 @@ FE_API int32_t fe_body_closest_point(const fe_world *world, fe_body body, const 
 
 /// What an event tells of.
 typedef enum fe_event_kind {
-    FE_EVENT_ENTER = 1,
-    FE_EVENT_STAY = 2,
-    FE_EVENT_EXIT = 3,
-    FE_EVENT_SLEEP = 4,
-    FE_EVENT_WAKE = 5,
-    FE_EVENT_BREAK = 6,
+    FE_EVENT_ENTER = 1, ///< two shapes began to touch
+    FE_EVENT_STAY = 2,  ///< they still touch
+    FE_EVENT_EXIT = 3,  ///< they ceased to touch
+    FE_EVENT_SLEEP = 4, ///< a body fell asleep
+    FE_EVENT_WAKE = 5,  ///< a body woke
+    FE_EVENT_BREAK = 6, ///< a joint broke
     FE_EVENT_FORCE32 = 0x7fffffff
 } fe_event_kind;
 
@@ -2008,7 +2008,7 @@ FE_API fe_result fe_batch_get_world(const fe_batch *batch, int32_t index, fe_wor
 /// first axis of a configurable joint that is not locked; a ball or fixed joint has none (it reads 0, and takes
 /// nothing: FE_ERROR_STATE).
 typedef enum fe_field {
-    FE_FIELD_NONE = 0,
+    FE_FIELD_NONE = 0,         ///< no field yet
     FE_FIELD_TRANSFORM = 1,    ///< body, 7, read and written: position, rotation x y z w
     FE_FIELD_VELOCITY = 2,     ///< body, 6, read and written: linear, angular, as fe_world_set_velocities
     FE_FIELD_FORCE = 3,        ///< body, 6, written: force, torque, as fe_world_add_forces
@@ -2081,7 +2081,7 @@ FE_API fe_result fe_batch_hash(fe_batch *batch, uint32_t *out_words);
 
 /// Bits of fe_recorder_def.flags.
 typedef enum fe_record_flags {
-    FE_RECORD_NONE = 0,
+    FE_RECORD_NONE = 0,   ///< calls, hashes and keyframes; of assets their keys
     FE_RECORD_ASSETS = 1, ///< contents of assets, by fe_asset_save: where it is played, none need be there
     FE_RECORD_FINE = 2,   ///< 17 bytes for each awake body and step: who diverges is named at once
     FE_RECORD_LAST = 4,   ///< a flight recorder: what no longer fits goes, oldest first
@@ -2234,7 +2234,7 @@ FE_API fe_result fe_player_destroy(fe_player *player);
 
 /// What is drawn, as bits.
 typedef enum fe_draw_flags {
-    FE_DRAW_NONE = 0,
+    FE_DRAW_NONE = 0,      ///< nothing
     FE_DRAW_SHAPES = 1,    ///< triangles: surfaces; lines: edges; instances
     FE_DRAW_CONTACTS = 2,  ///< points: where shapes touch; lines: their normals, `scale` long
     FE_DRAW_FORCES = 4,    ///< lines: forces of contacts and joints in the last step, and those added for the next one

@@ -28,6 +28,7 @@ class Struct:
     name: str
     told: str
     fields: List[Field]
+    at: int  # in the header's text
 
     @property
     def is_sized(self):
@@ -73,6 +74,7 @@ class Enum:
     name: str
     told: str
     items: List[Enumerator]
+    at: int
 
 
 @dataclass
@@ -80,6 +82,11 @@ class Header:
     structs: Dict[str, Struct] = field(default_factory=dict)
     enums: Dict[str, Enum] = field(default_factory=dict)
     functions: Dict[str, Function] = field(default_factory=dict)
+
+    @property
+    def types(self):
+        """Enums and structs, in the order of the header."""
+        return sorted([*self.enums.values(), *self.structs.values()], key=lambda one: one.at)
 
 
 def comment_above(text, at):
@@ -136,9 +143,9 @@ def read(path=PATH):
     for found in re.finditer(r"^typedef (struct|enum) (fe_\w+) \{(.*?)\n\} \2;", text, re.M | re.S):
         told = comment_above(text, found.start())
         if found[1] == "enum":
-            header.enums[found[2]] = Enum(found[2], told, read_enumerators(found[3]))
+            header.enums[found[2]] = Enum(found[2], told, read_enumerators(found[3]), found.start())
         else:
-            header.structs[found[2]] = Struct(found[2], told, read_fields(found[3]))
+            header.structs[found[2]] = Struct(found[2], told, read_fields(found[3]), found.start())
     for found in re.finditer(r"^FE_API ([\w ]+?[ *]+)(fe_\w+)\(([^)]*)\);", text, re.M):
         told = comment_above(text, found.start())
         header.functions[found[2]] = Function(found[2], found[1].strip(), read_parameters(found[3]), told)

@@ -8,7 +8,11 @@ becomes a struct. Both have C's layout. Names of C in the comments become those 
 """
 import re
 import sys
+from pathlib import Path
 from xml.sax.saxutils import escape
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+import header  # noqa: E402
 
 BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "fe_transform": "WorldTransform",
            "fe_asset_key": "AssetKey"}
@@ -58,15 +62,14 @@ def prefix_words(items):
 class Words:
     """C's names in a comment, as C# has them."""
 
-    def __init__(self, types):
+    def __init__(self, declared):
         self.enumerators = {}
-        for kind, name, body, _ in types:
-            items = [m[1] for m in re.finditer(r"^\s*(FE_\w+) = ", body, re.M) if "FORCE32" not in m[1]]
-            if kind == "enum":
-                shared = prefix_words(items)
-                for item in items:
-                    self.enumerators[item] = f"{type_name(name)}.{pascal('_'.join(item.split('_')[shared:]))}"
-        self.types = {name for _, name, _, _ in types}
+        for name, enum in declared.enums.items():
+            items = [item.name for item in enum.items]
+            shared = prefix_words(items)
+            for item in items:
+                self.enumerators[item] = f"{type_name(name)}.{pascal('_'.join(item.split('_')[shared:]))}"
+        self.types = {*declared.enums, *declared.structs}
 
     def lower_case(self, match):
         name, field = match[1], match[2]
@@ -87,14 +90,14 @@ def summary(text, words, indent):
     return f"{indent}/// <summary>{text}</summary>\n" if text else ""
 
 
-def enum(name, body, doc, words):
-    items = [m for m in re.finditer(r"^\s*(FE_\w+) = ([^,\n]+),?[ ]*(?:///< (.*))?$", body, re.M)
-             if "FORCE32" not in m[1]]
-    lines = "".join(summary(m[3] or "", words, "        ") +
-                    f"        {words.enumerators[m[1]].partition('.')[2]} = {m[2]},\n" for m in items)
-    flags = "    [System.Flags]\n" if name in FLAGS else ""
-    access = "internal" if name in PRIVATE else "public"
-    return f"{summary(doc, words, '    ')}{flags}    {access} enum {type_name(name)}\n    {{\n{lines}    }}\n"
+def enum_text(one, words):
+    front = type_name(one.name) + "."
+    lines = "".join(summary(item.told or item.name, words, "        ") +
+                    f"        {words.enumerators[item.name][len(front):]} = {item.value},\n" for item in one.items)
+    flags = "    [System.Flags]\n" if one.name in FLAGS else ""
+    access = "internal" if one.name in PRIVATE else "public"
+    told = summary(one.told, words, "    ")
+    return f"{told}{flags}    {access} enum {type_name(one.name)}\n    {{\n{lines}    }}\n"
 
 
 def field_type(base, name, doc, enums):
@@ -109,41 +112,35 @@ def field_type(base, name, doc, enums):
     return PLAIN.get(base) or type_name(base)
 
 
-def fields(body, enums):
-    """(type, name, visibility, documentation) of each field, arrays spread out; continued comments joined."""
-    body = re.sub(r"\n\s*///< ?", " ", re.sub(r"\n\s*///(?!<).*", "", body))
-    for m in re.finditer(r"^\s*(const )?(\w+) ([^;]+);[ ]*(?:///< (.*))?$", body, re.M):
-        base, declarators, doc = m[2], m[3], m[4] or ""
-        for declarator in declarators.split(","):
-            declarator = declarator.strip()
-            name = declarator.lstrip("*").split("[")[0]
-            hidden = name == "struct_size" or name.startswith("reserved") or "*" in declarator
-            kind = "System.IntPtr" if "*" in declarator else field_type(base, name, doc, enums)
-            array = re.search(r"\[(\d+)\]", declarator)
-            names = [pascal(name)]
-            if array:
-                count = int(array[1])
-                names = AXES if name == "axes" else [f"{re.sub('s$', '', pascal(name))}{i}" for i in range(count)]
-            for each in names:
-                yield kind, each, "internal" if hidden else "public", doc
+def fields(struct, enums):
+    """(type, name, visibility, documentation) of each field, arrays spread out."""
+    for one in struct.fields:
+        hidden = one.name == "struct_size" or one.name.startswith("reserved") or one.is_pointer
+        kind = "System.IntPtr" if one.is_pointer else field_type(one.kind, one.name, one.told, enums)
+        names = [pascal(one.name)]
+        if one.count:
+            names = [f"{re.sub('s$', '', names[0])}{i}" for i in range(one.count)] if one.name != "axes" else AXES
+        for each in names:
+            yield kind, each, "internal" if hidden else "public", one.told
 
 
 def to_string(name, members):
     parts = ", ".join(f"{member} = {{{member}}}" for member in members)
-    return ("        public override string ToString()\n        {\n"
+    return ("        /// <inheritdoc/>\n        public override string ToString()\n        {\n"
             f"            return System.FormattableString.Invariant(\n                $\"{name} {{{{ {parts} }}}}\");\n"
             "        }\n")
 
 
-def record(name, body, doc, enums, words, shared_docs):
+def record(struct, enums, words, shared_docs):
+    name = struct.name
     definition = is_definition(name)
     kind = "sealed unsafe partial class" if definition else "partial struct"
     access = "internal" if name in PRIVATE else "public"
     own = type_name(name)
-    text = summary(doc, words, "    ")
+    text = summary(struct.told, words, "    ")
     text += f"    [StructLayout(LayoutKind.Sequential)]\n    {access} {kind} {own}\n    {{\n"
     members = []
-    for field, each, visibility, comment in fields(body, enums):
+    for field, each, visibility, comment in fields(struct, enums):
         comment = comment or name.endswith("_joint_def") and shared_docs.get(each) or ""
         text += summary(comment if visibility == "public" else "", words, "        ")
         text += f"        {visibility} {field} {each};\n"
@@ -159,18 +156,13 @@ def record(name, body, doc, enums, words, shared_docs):
 
 
 def main():
-    header = open(sys.argv[1], encoding="utf-8").read()
-    pattern = r"((?:^///[^\n]*\n)*)^typedef (struct|enum) (\w+) \{\n(.*?)^\} \3;"
-    types = [(m[2], m[3], m[4], re.sub(r"^///", "", m[1] or "", flags=re.M))
-             for m in re.finditer(pattern, header, re.M | re.S)]
-    words = Words(types)
-    enums = {name for kind, name, _, _ in types if kind == "enum"}
-    shared_docs = {member: doc for _, name, body, _ in types if name == "fe_joint_def"
-                   for _, member, _, doc in fields(body, enums)}
-    parts = [enum(name, body, doc, words) if kind == "enum" else record(name, body, doc, enums, words, shared_docs)
-             for kind, name, body, doc in types if name not in BY_HAND and name not in FOR_C]
+    declared = header.read(Path(sys.argv[1]))
+    words, enums = Words(declared), set(declared.enums)
+    shared_docs = {member: doc for _, member, _, doc in fields(declared.structs["fe_joint_def"], enums)}
+    shown = [one for one in declared.types if one.name not in BY_HAND and one.name not in FOR_C]
+    parts = [enum_text(one, words) if one.name in enums else record(one, enums, words, shared_docs) for one in shown]
     with open(sys.argv[2], "w", encoding="utf-8") as out:
-        out.write("// Made from feather.h by bindings/csharp/records.py.\n#pragma warning disable 169, 414, 649, 1591\n"
+        out.write("// Made from feather.h by bindings/csharp/records.py.\n#pragma warning disable 169, 414, 649\n"
                   "using System.Runtime.InteropServices;\n"
                   "#if UNITY_5_3_OR_NEWER\nusing UnityEngine;\n#else\nusing System.Numerics;\n#endif\n\n"
                   "namespace FeatherPhysics\n{\n" + "\n".join(parts) + "}\n")
