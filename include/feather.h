@@ -910,16 +910,16 @@ typedef enum fe_shape_events {
 /// the same one: above 0 they always collide, below 0 never.
 typedef struct fe_shape_def {
     uint32_t struct_size;
-    float density;   ///< kg/m3, >= 0; a trigger weighs too. Parts of a compound may have their own. Default 1000
-    fe_frame frame;  ///< of the shape, in the body's space. Default the body's own
-    int32_t trigger; ///< 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0
-    fe_material material;
-    uint32_t layer;            ///< exactly one bit. Default 1
-    uint32_t mask;             ///< the layers it collides with; 0: seen by queries only. Default all
-    int32_t group;             ///< 0: none. Default 0
-    uint32_t events;           ///< fe_shape_events; a pair has what either shape asks for. Default touch
-    int32_t pair_filter;       ///< 1: the world's pair filter judges its new pairs. Default 0
-    int32_t one_way;           ///< 1: holds only what comes against `one_way_direction`; convex forms. Default 0
+    float density;        ///< kg/m3, >= 0; a trigger weighs too. Parts of a compound may have their own. Default 1000
+    fe_frame frame;       ///< of the shape, in the body's space. Default the body's own
+    int32_t trigger;      ///< 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0
+    fe_material material; ///< its surface
+    uint32_t layer;       ///< exactly one bit. Default 1
+    uint32_t mask;        ///< the layers it collides with; 0: seen by queries only. Default all
+    int32_t group;        ///< 0: none. Default 0
+    uint32_t events;      ///< fe_shape_events; a pair has what either shape asks for. Default touch
+    int32_t pair_filter;  ///< 1: the world's pair filter judges its new pairs. Default 0
+    int32_t one_way;      ///< 1: holds only what comes against `one_way_direction`; convex forms. Default 0
     fe_vec3 one_way_direction; ///< shape frame, any length but zero: up, for a floor to jump through. Default 0, 1, 0
     fe_vec3 surface_velocity;  ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
     uint64_t user_data;        ///< any number of yours. Default 0
@@ -1435,8 +1435,8 @@ typedef enum fe_hit_flags {
 
 /// Where a ray or a moving form met a body.
 typedef struct fe_hit {
-    fe_body body;
-    fe_shape shape;
+    fe_body body;         ///< that was hit
+    fe_shape shape;       ///< of the body
     fe_dvec3 point;       ///< on the body's surface, m, world space; started inside: where the centre started
     double fraction;      ///< 0..1 of the translation
     uint64_t material;    ///< fe_material.user_id of what was hit
@@ -1564,8 +1564,8 @@ FE_API int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *ge
 
 /// A shape that a geometry overlaps, and the shortest translation that parts the two.
 typedef struct fe_overlap {
-    fe_body body;
-    fe_shape shape;
+    fe_body body;      ///< that overlaps
+    fe_shape shape;    ///< of the body
     uint64_t material; ///< fe_material.user_id where it is deepest
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
@@ -1589,8 +1589,8 @@ FE_API int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *b
 
 /// The point of a surface that is closest to a point.
 typedef struct fe_closest {
-    fe_body body;
-    fe_shape shape;
+    fe_body body;         ///< that is closest
+    fe_shape shape;       ///< of the body
     fe_dvec3 point;       ///< of the shape's surface, m, world space
     double distance;      ///< to the surface, m; below 0 inside
     uint64_t material;    ///< fe_material.user_id there
@@ -1642,8 +1642,8 @@ typedef enum fe_event_kind {
 /// Two shapes began to touch, went on, or ceased: a point had an impulse, or a gap of 0 or less, during the step. A is
 /// the body created first. After the exit caused by a destruction, the handles of what was destroyed are stale.
 typedef struct fe_pair_event {
-    fe_body body_a, body_b;
-    fe_shape shape_a, shape_b;
+    fe_body body_a, body_b;         ///< the two that met
+    fe_shape shape_a, shape_b;      ///< of these bodies
     int32_t kind;                   ///< FE_EVENT_ENTER, FE_EVENT_STAY, FE_EVENT_EXIT
     int32_t is_trigger;             ///< 1 when either is a trigger
     int32_t part_a, part_b;         ///< of compounds: those of the deepest point; -1 at an exit, and of others
@@ -1657,7 +1657,7 @@ FE_API int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *ou
 
 /// A body fell asleep or woke.
 typedef struct fe_body_event {
-    fe_body body;
+    fe_body body; ///< that fell asleep or woke
     int32_t kind; ///< FE_EVENT_SLEEP, FE_EVENT_WAKE
     uint32_t reserved;
 } fe_body_event;
@@ -1669,8 +1669,8 @@ FE_API int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *ou
 
 /// An impact.
 typedef struct fe_hit_event {
-    fe_body body_a, body_b;
-    fe_shape shape_a, shape_b;
+    fe_body body_a, body_b;          ///< the two that met
+    fe_shape shape_a, shape_b;       ///< of these bodies
     uint64_t material_a, material_b; ///< fe_material.user_id where they met
     fe_dvec3 point;                  ///< m, world space
     fe_vec3 normal;                  ///< from A to B
@@ -1689,7 +1689,7 @@ FE_API int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_
 
 /// A joint's reaction exceeded its break_force or break_torque in the last step: it is gone, its handle stale.
 typedef struct fe_joint_event {
-    fe_joint joint;
+    fe_joint joint;         ///< that broke
     fe_body body_a, body_b; ///< 0: the world
     uint64_t user_data;     ///< of the joint
     int32_t kind;           ///< FE_EVENT_BREAK
@@ -1714,8 +1714,8 @@ typedef struct fe_contact_point {
 /// A pair of shapes has one, with compounds each pair of parts; with a heightfield or a mesh one for each direction in
 /// which it is touched, at most 6.
 typedef struct fe_contact {
-    fe_body body_a, body_b;
-    fe_shape shape_a, shape_b;
+    fe_body body_a, body_b;          ///< the two that met
+    fe_shape shape_a, shape_b;       ///< of these bodies
     uint64_t material_a, material_b; ///< fe_material.user_id under the deepest point
     fe_vec3 normal;                  ///< unit, from A to B
     int32_t point_count;             ///< 1..4
@@ -2270,10 +2270,10 @@ typedef struct fe_draw_vertex {
 
 /// A shape, for renderers that have a mesh for each form and draw all of a form at once.
 typedef struct fe_draw_instance {
-    int32_t type;  ///< fe_geometry_type
-    uint32_t rgba; ///< as in fe_draw_vertex
-    fe_shape shape;
-    fe_body body;
+    int32_t type;         ///< fe_geometry_type
+    uint32_t rgba;        ///< as in fe_draw_vertex
+    fe_shape shape;       ///< that it shows
+    fe_body body;         ///< of the shape
     fe_asset asset;       ///< of a hull, a heightfield, a mesh; else 0
     fe_vec3 position;     ///< relative to fe_draw_options.origin, m
     fe_quat rotation;     ///< to the world's axes

@@ -9,6 +9,7 @@ namespace FeatherPhysics
     /// </summary>
     public sealed unsafe class BatchArray
     {
+        /// <summary>What it holds.</summary>
         public readonly BatchField Field;
         /// <summary>Read in this body's frame: poses relative to it, vectors along its axes. default: the world's.</summary>
         public BodyHandle RelativeTo;
@@ -30,22 +31,26 @@ namespace FeatherPhysics
         /// <summary>Of the world itself.</summary>
         /// <param name="data">as many numbers as worlds x the row: exactly these</param>
         public BatchArray(BatchField field, float[] data) : this(field, data, null, (ulong[])null) { }
+        /// <summary>The same in double.</summary>
         public BatchArray(BatchField field, double[] data) : this(field, null, data, (ulong[])null) { }
         /// <summary>Of bodies.</summary>
         /// <param name="data">as many numbers as worlds x items x the row: exactly these</param>
         public BatchArray(BatchField field, float[] data, params BodyHandle[] bodies)
             : this(field, data, null, Ids(bodies)) { }
+        /// <summary>The same in double.</summary>
         public BatchArray(BatchField field, double[] data, params BodyHandle[] bodies)
             : this(field, null, data, Ids(bodies)) { }
         /// <summary>Of joints.</summary>
         public BatchArray(BatchField field, float[] data, params JointHandle[] joints)
             : this(field, data, null, Ids(joints)) { }
+        /// <summary>The same in double.</summary>
         public BatchArray(BatchField field, double[] data, params JointHandle[] joints)
             : this(field, null, data, Ids(joints)) { }
         /// <summary>Of shapes.</summary>
         /// <param name="data">as many numbers as worlds x items x the row: exactly these</param>
         public BatchArray(BatchField field, float[] data, params ShapeHandle[] shapes)
             : this(field, data, null, Ids(shapes)) { }
+        /// <summary>The same in double.</summary>
         public BatchArray(BatchField field, double[] data, params ShapeHandle[] shapes)
             : this(field, null, data, Ids(shapes)) { }
 

@@ -22,7 +22,9 @@ namespace FeatherPhysics
 
         void* P { get { return World.PointerOf(world, "Body"); } }
 
+        /// <summary>The world that it belongs to.</summary>
         public World World { get { return world; } }
+        /// <summary>Its handle, as arrays, events and hits have it.</summary>
         public BodyHandle Handle { get { return new BodyHandle(id); } }
         /// <summary>False once it is destroyed, or its world disposed.</summary>
         public bool IsValid { get { return World.IsThere(world, World.Kind.Body, id); } }
@@ -45,34 +47,43 @@ namespace FeatherPhysics
             GC.KeepAlive(world);
             return new Shape(world, made);
         }
+        /// <summary>A ball, by its radius, m.</summary>
         public Shape AddSphere(float radius, ShapeDef def = null) { return Add(Geometry.Sphere(radius), def); }
+        /// <summary>A rod with round ends along local Y: half the height of its axis, and its radius, m.</summary>
         public Shape AddCapsule(float halfHeight, float radius, ShapeDef def = null)
         {
             return Add(Geometry.Capsule(halfHeight, radius), def);
         }
+        /// <summary>A box, by half its edges, m.</summary>
         public Shape AddBox(float halfX, float halfY, float halfZ, ShapeDef def = null)
         {
             return Add(Geometry.Box(halfX, halfY, halfZ), def);
         }
+        /// <summary>The half space normal . p &lt;= distance, of a static body.</summary>
         public Shape AddPlane(float normalX, float normalY, float normalZ, float distance, ShapeDef def = null)
         {
             return Add(Geometry.Plane(normalX, normalY, normalZ, distance), def);
         }
+        /// <summary>A cylinder along local Y: half its height, and its radius, m.</summary>
         public Shape AddCylinder(float halfHeight, float radius, ShapeDef def = null)
         {
             return Add(Geometry.Cylinder(halfHeight, radius), def);
         }
+        /// <summary>A cone along local Y, its tip up: half its height, and the radius of its base, m.</summary>
         public Shape AddCone(float halfHeight, float radius, ShapeDef def = null)
         {
             return Add(Geometry.Cone(halfHeight, radius), def);
         }
+        /// <summary>A convex hull; its points are in the shape's frame.</summary>
         public Shape AddHull(ConvexHull hull, ShapeDef def = null) { return Add(Geometry.Hull(hull), def); }
         /// <summary>Of a static or kinematic body.</summary>
         public Shape AddMesh(TriangleMesh mesh, ShapeDef def = null) { return Add(Geometry.Mesh(mesh), def); }
+        /// <summary>A compound; its parts are in the shape's frame.</summary>
         public Shape AddCompound(Compound compound, ShapeDef def = null)
         {
             return Add(Geometry.Compound(compound), def);
         }
+        /// <summary>A heightfield, of a static body.</summary>
         public Shape AddTerrain(Heightfield field, ShapeDef def = null)
         {
             return Add(Geometry.Terrain(field), def);
@@ -110,6 +121,7 @@ namespace FeatherPhysics
 
         // ---- where and how fast ----
 
+        /// <summary>A change wakes it. Planes and terrain are on static bodies alone, meshes not on dynamic ones.</summary>
         public BodyType Type
         {
             get { int value; Native.body_get_type(P, id, &value); GC.KeepAlive(world); return (BodyType)value; }
@@ -127,6 +139,7 @@ namespace FeatherPhysics
             get { DVec3 value; Native.body_get_position(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.body_set_position(P, id, &value); GC.KeepAlive(world); }
         }
+        /// <summary>From its own axes to the world's; any length but zero. Setting turns it at once and wakes it.</summary>
         public Quaternion Rotation
         {
             get { Quaternion value; Native.body_get_rotation(P, id, &value); GC.KeepAlive(world); return value; }
@@ -232,6 +245,7 @@ namespace FeatherPhysics
             Native.body_set_locks(P, id, (uint)linear, (uint)angular);
             GC.KeepAlive(world);
         }
+        /// <summary>World axes along which it cannot move, and about which it cannot rotate.</summary>
         public void GetLocks(out Axes linear, out Axes angular)
         {
             uint l, a;
@@ -246,6 +260,7 @@ namespace FeatherPhysics
             Native.body_set_damping(P, id, linear, angular);
             GC.KeepAlive(world);
         }
+        /// <summary>1/s: v /= 1 + h c in each substep of h seconds.</summary>
         public void GetDamping(out float linear, out float angular)
         {
             float l, a;
@@ -254,6 +269,7 @@ namespace FeatherPhysics
             linear = l;
             angular = a;
         }
+        /// <summary>Factor of the world's gravity.</summary>
         public float GravityScale
         {
             get { float value; Native.body_get_gravity_scale(P, id, &value); GC.KeepAlive(world); return value; }
@@ -265,6 +281,7 @@ namespace FeatherPhysics
             get { int value; Native.body_get_awake(P, id, &value); GC.KeepAlive(world); return value != 0; }
             set { Native.body_set_awake(P, id, value ? 1 : 0); GC.KeepAlive(world); }
         }
+        /// <summary>May it sleep? false wakes it.</summary>
         public bool SleepAllowed
         {
             get { int value; Native.body_get_sleep_allowed(P, id, &value); GC.KeepAlive(world); return value != 0; }
@@ -338,11 +355,17 @@ namespace FeatherPhysics
             return result == 1;
         }
 
+        /// <inheritdoc/>
         public bool Equals(Body other) { return world == other.world && id == other.id; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is Body && Equals((Body)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return id.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(Body a, Body b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(Body a, Body b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "Body 0x" + id.ToString("x"); }
     }
 }

@@ -32,6 +32,7 @@ namespace FeatherPhysics
             finally { Leave(held); }
         }
 
+        /// <summary>The same of parts one by one.</summary>
         public Compound CreateCompound(params CompoundPart[] parts)
         {
             World.NotNull(parts, "Store.CreateCompound");
@@ -62,6 +63,7 @@ namespace FeatherPhysics
         /// <param name="geometry">any but a plane and a compound</param>
         /// <param name="position">in the compound's space, m</param>
         public CompoundPart(Geometry geometry, Vector3 position) : this(geometry) { Frame.Position = position; }
+        /// <summary>A form at a place in the compound's space, m.</summary>
         public CompoundPart(Geometry geometry, Vector3 position, Quaternion rotation) : this(geometry)
         {
             Frame = new Frame(position, rotation);
@@ -84,7 +86,9 @@ namespace FeatherPhysics
 
         internal Compound(Store store, ulong id) { asset = new Asset(store, id); }
 
+        /// <summary>The store that it is in.</summary>
         public Store Store { get { return asset.Store; } }
+        /// <summary>Its handle, as geometries have it.</summary>
         public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
         public bool IsValid { get { return asset.IsAlive; } }
@@ -133,11 +137,17 @@ namespace FeatherPhysics
         void* Enter(ref bool held) { return asset.Enter("Compound", ref held); }
         void Leave(bool held) { asset.Leave(held); }
 
+        /// <inheritdoc/>
         public bool Equals(Compound other) { return asset.Equals(other.asset); }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is Compound && Equals((Compound)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return asset.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(Compound a, Compound b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(Compound a, Compound b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "Compound " + asset; }
     }
 }

@@ -56,7 +56,9 @@ namespace FeatherPhysics
 
         internal ConvexHull(Store store, ulong id) { asset = new Asset(store, id); }
 
+        /// <summary>The store that it is in.</summary>
         public Store Store { get { return asset.Store; } }
+        /// <summary>Its handle, as geometries have it.</summary>
         public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
         public bool IsValid { get { return asset.IsAlive; } }
@@ -122,11 +124,17 @@ namespace FeatherPhysics
         void* Enter(ref bool held) { return asset.Enter("ConvexHull", ref held); }
         void Leave(bool held) { asset.Leave(held); }
 
+        /// <inheritdoc/>
         public bool Equals(ConvexHull other) { return asset.Equals(other.asset); }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is ConvexHull && Equals((ConvexHull)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return asset.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(ConvexHull a, ConvexHull b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(ConvexHull a, ConvexHull b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "ConvexHull " + asset; }
     }
 }

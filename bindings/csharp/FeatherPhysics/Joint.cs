@@ -18,11 +18,15 @@ namespace FeatherPhysics
 
         void* P { get { return World.PointerOf(world, "Joint"); } }
 
+        /// <summary>The world that it belongs to.</summary>
         public World World { get { return world; } }
+        /// <summary>Its handle, as arrays and events have it.</summary>
         public JointHandle Handle { get { return new JointHandle(id); } }
         /// <summary>False once it is destroyed or has broken, or its world is disposed.</summary>
         public bool IsValid { get { return World.IsThere(world, World.Kind.Joint, id); } }
+        /// <summary>Its bodies wake. They may collide again from the next step on.</summary>
         public void Destroy() { Native.joint_destroy(P, id); GC.KeepAlive(world); }
+        /// <summary>Which of the five it is.</summary>
         public JointType Type
         {
             get { int value; Native.joint_get_type(P, id, &value); GC.KeepAlive(world); return (JointType)value; }
@@ -36,6 +40,7 @@ namespace FeatherPhysics
             bodyA = a == 0 ? default(Body) : new Body(world, a);
             bodyB = b == 0 ? default(Body) : new Body(world, b);
         }
+        /// <summary>False: it does nothing. A change wakes its bodies.</summary>
         public bool Enabled
         {
             get { int value; Native.joint_get_enabled(P, id, &value); GC.KeepAlive(world); return value != 0; }
@@ -105,72 +110,84 @@ namespace FeatherPhysics
         // A definition is read, changed and set again: all of it but the bodies. WrongStateException for a joint of
         // another type. JointDef is what all types have.
 
+        /// <summary>Reads what all types have.</summary>
         public void Get(JointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets what all types have, but the bodies.</summary>
         public void Set(JointDef def)
         {
             World.NotNull(def, "Joint.Set");
             fixed (uint* start = &def.StructSize) Native.joint_set(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Reads what was set. WrongStateException for a joint of another type.</summary>
         public void Get(DistanceJointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.distance_joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets all but the bodies. WrongStateException for a joint of another type.</summary>
         public void Set(DistanceJointDef def)
         {
             World.NotNull(def, "Joint.Set");
             fixed (uint* start = &def.StructSize) Native.distance_joint_set(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Reads what was set. WrongStateException for a joint of another type.</summary>
         public void Get(BallJointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.ball_joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets all but the bodies. WrongStateException for a joint of another type.</summary>
         public void Set(BallJointDef def)
         {
             World.NotNull(def, "Joint.Set");
             fixed (uint* start = &def.StructSize) Native.ball_joint_set(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Reads what was set. WrongStateException for a joint of another type.</summary>
         public void Get(HingeJointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.hinge_joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets all but the bodies. WrongStateException for a joint of another type.</summary>
         public void Set(HingeJointDef def)
         {
             World.NotNull(def, "Joint.Set");
             fixed (uint* start = &def.StructSize) Native.hinge_joint_set(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Reads what was set. WrongStateException for a joint of another type.</summary>
         public void Get(FixedJointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.fixed_joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets all but the bodies. WrongStateException for a joint of another type.</summary>
         public void Set(FixedJointDef def)
         {
             World.NotNull(def, "Joint.Set");
             fixed (uint* start = &def.StructSize) Native.fixed_joint_set(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Reads what was set. WrongStateException for a joint of another type.</summary>
         public void Get(ConfigurableJointDef def)
         {
             World.NotNull(def, "Joint.Get");
             fixed (uint* start = &def.StructSize) Native.configurable_joint_get(P, id, start);
             GC.KeepAlive(world);
         }
+        /// <summary>Sets all but the bodies. WrongStateException for a joint of another type.</summary>
         public void Set(ConfigurableJointDef def)
         {
             World.NotNull(def, "Joint.Set");
@@ -178,11 +195,17 @@ namespace FeatherPhysics
             GC.KeepAlive(world);
         }
 
+        /// <inheritdoc/>
         public bool Equals(Joint other) { return world == other.world && id == other.id; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is Joint && Equals((Joint)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return id.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(Joint a, Joint b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(Joint a, Joint b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "Joint 0x" + id.ToString("x"); }
     }
 }

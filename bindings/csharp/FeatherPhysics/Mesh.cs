@@ -21,6 +21,7 @@ namespace FeatherPhysics
             return CreateMesh(new MeshDef { Vertices = vertices, Indices = indices });
         }
 
+        /// <summary>Triangles of any form, for static and kinematic bodies.</summary>
         public TriangleMesh CreateMesh(MeshDef def)
         {
             const string where = "Store.CreateMesh";
@@ -95,6 +96,7 @@ namespace FeatherPhysics
         public float EdgeAngle = 0.035f;
         /// <summary>A triangle each: index into <see cref="Materials"/>; null: the shape's.</summary>
         public byte[] TriangleMaterials;
+        /// <summary>Replace the material of the shape, by triangle.</summary>
         public SurfaceMaterial[] Materials;
         /// <summary>A triangle each: any number of yours; null: none.</summary>
         public uint[] TriangleData;
@@ -107,7 +109,9 @@ namespace FeatherPhysics
 
         internal TriangleMesh(Store store, ulong id) { asset = new Asset(store, id); }
 
+        /// <summary>The store that it is in.</summary>
         public Store Store { get { return asset.Store; } }
+        /// <summary>Its handle, as geometries have it.</summary>
         public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
         public bool IsValid { get { return asset.IsAlive; } }
@@ -165,11 +169,17 @@ namespace FeatherPhysics
         void* Enter(ref bool held) { return asset.Enter("TriangleMesh", ref held); }
         void Leave(bool held) { asset.Leave(held); }
 
+        /// <inheritdoc/>
         public bool Equals(TriangleMesh other) { return asset.Equals(other.asset); }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is TriangleMesh && Equals((TriangleMesh)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return asset.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(TriangleMesh a, TriangleMesh b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(TriangleMesh a, TriangleMesh b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "TriangleMesh " + asset; }
     }
 }

@@ -19,12 +19,16 @@ namespace FeatherPhysics
 
         void* P { get { return World.PointerOf(world, "Shape"); } }
 
+        /// <summary>The world that it belongs to.</summary>
         public World World { get { return world; } }
+        /// <summary>Its handle, as arrays, events and hits have it.</summary>
         public ShapeHandle Handle { get { return new ShapeHandle(id); } }
         /// <summary>False once it is destroyed, or its world disposed.</summary>
         public bool IsValid { get { return World.IsThere(world, World.Kind.Shape, id); } }
+        /// <summary>Mass and inertia of the body follow, unless they were set. The body and what it touched wake.</summary>
         public void Destroy() { Native.shape_destroy(P, id); GC.KeepAlive(world); }
 
+        /// <summary>The body that it belongs to.</summary>
         public Body Body
         {
             get
@@ -35,6 +39,7 @@ namespace FeatherPhysics
                 return new Body(world, value);
             }
         }
+        /// <summary>Its form. Setting gives it another one in the same place.</summary>
         public Geometry Geometry
         {
             get
@@ -64,6 +69,7 @@ namespace FeatherPhysics
             get { float value; Native.shape_get_density(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.shape_set_density(P, id, value); GC.KeepAlive(world); }
         }
+        /// <summary>Its surface.</summary>
         public SurfaceMaterial Material
         {
             get { SurfaceMaterial value; Native.shape_get_material(P, id, &value); GC.KeepAlive(world); return value; }
@@ -78,6 +84,7 @@ namespace FeatherPhysics
             Native.shape_set_filter(P, id, layer, mask, group);
             GC.KeepAlive(world);
         }
+        /// <summary>As <see cref="SetFilter"/> set it.</summary>
         public void GetFilter(out uint layer, out uint mask, out int group)
         {
             uint l, m;
@@ -106,6 +113,7 @@ namespace FeatherPhysics
             Native.shape_set_one_way(P, id, enabled ? 1 : 0, &direction);
             GC.KeepAlive(world);
         }
+        /// <summary>As <see cref="SetOneWay"/> set it.</summary>
         public void GetOneWay(out bool enabled, out Vector3 direction)
         {
             int on;
@@ -121,6 +129,7 @@ namespace FeatherPhysics
             get { int value; Native.shape_get_trigger(P, id, &value); GC.KeepAlive(world); return value != 0; }
             set { Native.shape_set_trigger(P, id, value ? 1 : 0); GC.KeepAlive(world); }
         }
+        /// <summary>What it reports; a pair has what either shape asks for.</summary>
         public ShapeEvents Events
         {
             get { uint value; Native.shape_get_events(P, id, &value); GC.KeepAlive(world); return (ShapeEvents)value; }
@@ -180,11 +189,17 @@ namespace FeatherPhysics
             return result == 1;
         }
 
+        /// <inheritdoc/>
         public bool Equals(Shape other) { return world == other.world && id == other.id; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is Shape && Equals((Shape)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return id.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(Shape a, Shape b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(Shape a, Shape b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "Shape 0x" + id.ToString("x"); }
     }
 }

@@ -169,6 +169,7 @@ namespace FeatherPhysics
         public byte[] Holes;
         /// <summary>A cell each: index into <see cref="Materials"/>; null: the shape's.</summary>
         public byte[] CellMaterials;
+        /// <summary>Replace the material of the shape, by cell.</summary>
         public SurfaceMaterial[] Materials;
     }
 
@@ -179,7 +180,9 @@ namespace FeatherPhysics
 
         internal Heightfield(Store store, ulong id) { asset = new Asset(store, id); }
 
+        /// <summary>The store that it is in.</summary>
         public Store Store { get { return asset.Store; } }
+        /// <summary>Its handle, as geometries have it.</summary>
         public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
         public bool IsValid { get { return asset.IsAlive; } }
@@ -204,6 +207,7 @@ namespace FeatherPhysics
             }
             finally { Leave(held); }
         }
+        /// <summary>Reads the samples of a rectangle, row by row, m.</summary>
         public void GetHeights(int row, int column, int rows, int columns, Span<float> heights)
         {
             World.CheckLength((long)rows * columns, heights.Length, "Heightfield.GetHeights", "heights");
@@ -219,11 +223,17 @@ namespace FeatherPhysics
         void* Enter(ref bool held) { return asset.Enter("Heightfield", ref held); }
         void Leave(bool held) { asset.Leave(held); }
 
+        /// <inheritdoc/>
         public bool Equals(Heightfield other) { return asset.Equals(other.asset); }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is Heightfield && Equals((Heightfield)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return asset.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(Heightfield a, Heightfield b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(Heightfield a, Heightfield b) { return !a.Equals(b); }
+        /// <inheritdoc/>
         public override string ToString() { return "Heightfield " + asset; }
     }
 }

@@ -14,13 +14,16 @@ namespace FeatherPhysics
     [StructLayout(LayoutKind.Sequential)]
     public struct DVec3 : IEquatable<DVec3>
     {
+        /// <summary>m, or as its field says.</summary>
         public double X, Y, Z;
 
+        /// <summary>Of its three numbers.</summary>
         public DVec3(double x, double y, double z) { X = x; Y = y; Z = z; }
 
         /// <summary>Rounds to float: near the origin only. <see cref="RelativeTo"/> serves far away.</summary>
         public static explicit operator Vector3(DVec3 a) { return new Vector3((float)a.X, (float)a.Y, (float)a.Z); }
 
+        /// <summary>The same in double.</summary>
         public static explicit operator DVec3(Vector3 a)
         {
 #if UNITY_5_3_OR_NEWER
@@ -33,20 +36,32 @@ namespace FeatherPhysics
         /// <summary>The position seen from an origin, as of a floating-origin game or a camera.</summary>
         public Vector3 RelativeTo(DVec3 origin) { return (Vector3)(this - origin); }
 
+        /// <summary>Each number by itself.</summary>
         public static DVec3 operator +(DVec3 a, DVec3 b) { return new DVec3(a.X + b.X, a.Y + b.Y, a.Z + b.Z); }
+        /// <summary>Each number by itself.</summary>
         public static DVec3 operator -(DVec3 a, DVec3 b) { return new DVec3(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
+        /// <summary>Each number by itself.</summary>
         public static DVec3 operator +(DVec3 a, Vector3 b) { return a + (DVec3)b; }
+        /// <summary>Each number by itself.</summary>
         public static DVec3 operator -(DVec3 a, Vector3 b) { return a - (DVec3)b; }
+        /// <summary>Each number by itself.</summary>
         public static DVec3 operator *(DVec3 a, double factor)
         {
             return new DVec3(a.X * factor, a.Y * factor, a.Z * factor);
         }
+        /// <summary>Are all numbers equal?</summary>
         public static bool operator ==(DVec3 a, DVec3 b) { return a.X == b.X && a.Y == b.Y && a.Z == b.Z; }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(DVec3 a, DVec3 b) { return !(a == b); }
+        /// <summary>sqrt(X X + Y Y + Z Z).</summary>
         public double Length { get { return Math.Sqrt(X * X + Y * Y + Z * Z); } }
+        /// <inheritdoc/>
         public bool Equals(DVec3 other) { return X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z); }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is DVec3 && Equals((DVec3)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return (X.GetHashCode() * 397 ^ Y.GetHashCode()) * 397 ^ Z.GetHashCode(); }
+        /// <inheritdoc/>
         public override string ToString() { return FormattableString.Invariant($"({X}, {Y}, {Z})"); }
     }
 
@@ -54,11 +69,16 @@ namespace FeatherPhysics
     [StructLayout(LayoutKind.Sequential)]
     public struct WorldTransform
     {
+        /// <summary>m.</summary>
         public DVec3 Position;
+        /// <summary>From its own axes to the world's.</summary>
         public Quaternion Rotation;
 
+        /// <summary>Without a rotation.</summary>
         public WorldTransform(DVec3 position) { Position = position; Rotation = new Quaternion(0, 0, 0, 1); }
+        /// <summary>m, and any rotation but zero.</summary>
         public WorldTransform(DVec3 position, Quaternion rotation) { Position = position; Rotation = rotation; }
+        /// <inheritdoc/>
         public override string ToString()
         {
             return FormattableString.Invariant($"WorldTransform {{ Position = {Position}, Rotation = {Rotation} }}");
@@ -69,8 +89,11 @@ namespace FeatherPhysics
     [StructLayout(LayoutKind.Sequential)]
     public struct RelativeTransform
     {
+        /// <summary>m, from the origin.</summary>
         public Vector3 Position;
+        /// <summary>From its own axes to the world's.</summary>
         public Quaternion Rotation;
+        /// <inheritdoc/>
         public override string ToString()
         {
             return FormattableString.Invariant($"RelativeTransform {{ Position = {Position}, Rotation = {Rotation} }}");
@@ -81,9 +104,12 @@ namespace FeatherPhysics
     [StructLayout(LayoutKind.Sequential)]
     public struct LinearAngular
     {
+        /// <summary>m/s or N; rad/s or N m.</summary>
         public Vector3 Linear, Angular;
 
+        /// <summary>Of its two vectors.</summary>
         public LinearAngular(Vector3 linear, Vector3 angular) { Linear = linear; Angular = angular; }
+        /// <inheritdoc/>
         public override string ToString()
         {
             return FormattableString.Invariant($"LinearAngular {{ Linear = {Linear}, Angular = {Angular} }}");
@@ -97,8 +123,11 @@ namespace FeatherPhysics
         readonly int on;
 
         Switch(bool value) { on = value ? 1 : 0; }
+        /// <summary>Is it on?</summary>
         public static implicit operator bool(Switch value) { return value.on != 0; }
+        /// <summary>On for true.</summary>
         public static implicit operator Switch(bool value) { return new Switch(value); }
+        /// <inheritdoc/>
         public override string ToString() { return (on != 0).ToString(); }
     }
 
@@ -107,55 +136,90 @@ namespace FeatherPhysics
     /// </summary>
     public readonly struct BodyHandle : IEquatable<BodyHandle>
     {
+        /// <summary>The number that the library has for it.</summary>
         public readonly ulong Value;
+        /// <summary>Of the number that the library has for it.</summary>
         public BodyHandle(ulong value) { Value = value; }
+        /// <summary>Of what it names.</summary>
         public static implicit operator BodyHandle(Body body) { return body.Handle; }
+        /// <inheritdoc/>
         public bool Equals(BodyHandle other) { return Value == other.Value; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is BodyHandle && Equals((BodyHandle)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return Value.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(BodyHandle a, BodyHandle b) { return a.Value == b.Value; }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(BodyHandle a, BodyHandle b) { return a.Value != b.Value; }
+        /// <inheritdoc/>
         public override string ToString() { return "Body 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names a shape; see <see cref="BodyHandle"/>.</summary>
     public readonly struct ShapeHandle : IEquatable<ShapeHandle>
     {
+        /// <summary>The number that the library has for it.</summary>
         public readonly ulong Value;
+        /// <summary>Of the number that the library has for it.</summary>
         public ShapeHandle(ulong value) { Value = value; }
+        /// <summary>Of what it names.</summary>
         public static implicit operator ShapeHandle(Shape shape) { return shape.Handle; }
+        /// <inheritdoc/>
         public bool Equals(ShapeHandle other) { return Value == other.Value; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is ShapeHandle && Equals((ShapeHandle)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return Value.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(ShapeHandle a, ShapeHandle b) { return a.Value == b.Value; }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(ShapeHandle a, ShapeHandle b) { return a.Value != b.Value; }
+        /// <inheritdoc/>
         public override string ToString() { return "Shape 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names a joint; see <see cref="BodyHandle"/>.</summary>
     public readonly struct JointHandle : IEquatable<JointHandle>
     {
+        /// <summary>The number that the library has for it.</summary>
         public readonly ulong Value;
+        /// <summary>Of the number that the library has for it.</summary>
         public JointHandle(ulong value) { Value = value; }
+        /// <summary>Of what it names.</summary>
         public static implicit operator JointHandle(Joint joint) { return joint.Handle; }
+        /// <inheritdoc/>
         public bool Equals(JointHandle other) { return Value == other.Value; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is JointHandle && Equals((JointHandle)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return Value.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(JointHandle a, JointHandle b) { return a.Value == b.Value; }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(JointHandle a, JointHandle b) { return a.Value != b.Value; }
+        /// <inheritdoc/>
         public override string ToString() { return "Joint 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names what shapes share: a heightfield, a hull, a mesh or a compound.</summary>
     public readonly struct AssetHandle : IEquatable<AssetHandle>
     {
+        /// <summary>The number that the library has for it.</summary>
         public readonly ulong Value;
+        /// <summary>Of the number that the library has for it.</summary>
         public AssetHandle(ulong value) { Value = value; }
+        /// <inheritdoc/>
         public bool Equals(AssetHandle other) { return Value == other.Value; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is AssetHandle && Equals((AssetHandle)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return Value.GetHashCode(); }
+        /// <summary>Do both name the same?</summary>
         public static bool operator ==(AssetHandle a, AssetHandle b) { return a.Value == b.Value; }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(AssetHandle a, AssetHandle b) { return a.Value != b.Value; }
+        /// <inheritdoc/>
         public override string ToString() { return "Asset 0x" + Value.ToString("x"); }
     }
 
@@ -166,12 +230,19 @@ namespace FeatherPhysics
     [StructLayout(LayoutKind.Sequential)]
     public readonly struct AssetKey : IEquatable<AssetKey>
     {
+        /// <summary>Nothing but equal or not.</summary>
         public readonly ulong Word0, Word1;
+        /// <summary>Of its two words.</summary>
         public AssetKey(ulong word0, ulong word1) { Word0 = word0; Word1 = word1; }
+        /// <inheritdoc/>
         public bool Equals(AssetKey other) { return Word0 == other.Word0 && Word1 == other.Word1; }
+        /// <inheritdoc/>
         public override bool Equals(object other) { return other is AssetKey && Equals((AssetKey)other); }
+        /// <inheritdoc/>
         public override int GetHashCode() { return (Word0 ^ Word1).GetHashCode(); }
+        /// <summary>Are all numbers equal?</summary>
         public static bool operator ==(AssetKey a, AssetKey b) { return a.Equals(b); }
+        /// <summary>The opposite of ==.</summary>
         public static bool operator !=(AssetKey a, AssetKey b) { return !a.Equals(b); }
         /// <summary>32 hexadecimal digits.</summary>
         public override string ToString() { return Word0.ToString("x16") + Word1.ToString("x16"); }
@@ -181,6 +252,7 @@ namespace FeatherPhysics
     {
         /// <summary>Without a rotation.</summary>
         public Frame(Vector3 position) { Position = position; Rotation = new Quaternion(0, 0, 0, 1); }
+        /// <summary>m, and any rotation but zero.</summary>
         public Frame(Vector3 position, Quaternion rotation) { Position = position; Rotation = rotation; }
     }
 
@@ -197,6 +269,7 @@ namespace FeatherPhysics
     {
         /// <summary>Of the body's origin, m.</summary>
         public DVec3 Position { get { return Transform.Position; } set { Transform.Position = value; } }
+        /// <summary>From its own axes to the world's.</summary>
         public Quaternion Rotation { get { return Transform.Rotation; } set { Transform.Rotation = value; } }
     }
 
@@ -260,6 +333,7 @@ namespace FeatherPhysics
             Native.geometry_set_scale(&made, x, y, z);
             return made;
         }
+        /// <summary>A convex hull; its points are in the shape's frame.</summary>
         public static Geometry Hull(ConvexHull hull)
         {
             Geometry made;

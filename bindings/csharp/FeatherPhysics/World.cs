@@ -105,11 +105,14 @@ namespace FeatherPhysics
             GC.KeepAlive(this);
             return new Body(this, made);
         }
+        /// <summary>A body that never moves by itself.</summary>
         public Body CreateStatic(DVec3 position)
         {
             return CreateBody(new BodyDef { Type = BodyType.Static, Position = position });
         }
+        /// <summary>A body that moves by forces and contacts.</summary>
         public Body CreateDynamic(DVec3 position) { return CreateBody(new BodyDef { Position = position }); }
+        /// <summary>A body that moves by its velocities, which nothing else changes.</summary>
         public Body CreateKinematic(DVec3 position)
         {
             return CreateBody(new BodyDef { Type = BodyType.Kinematic, Position = position });
@@ -150,7 +153,9 @@ namespace FeatherPhysics
 
         /// <summary>The body of a handle, as events and hits have it.</summary>
         public Body this[BodyHandle handle] { get { return new Body(this, handle.Value); } }
+        /// <summary>The shape of a handle.</summary>
         public Shape this[ShapeHandle handle] { get { return new Shape(this, handle.Value); } }
+        /// <summary>The joint of a handle.</summary>
         public Joint this[JointHandle handle] { get { return new Joint(this, handle.Value); } }
 
         /// <summary>Writes all bodies in the order of creation and returns how many there are.</summary>
@@ -206,6 +211,7 @@ namespace FeatherPhysics
         }
         /// <summary>In this world's store, see <see cref="FeatherPhysics.Store.CreateMesh(MeshDef)"/>.</summary>
         public TriangleMesh CreateMesh(MeshDef def) { return Store.CreateMesh(def); }
+        /// <summary>Three indices a triangle; all else as <see cref="MeshDef"/> begins.</summary>
         public TriangleMesh CreateMesh(Vector3[] vertices, int[] indices)
         {
             return Store.CreateMesh(vertices, indices);
@@ -214,6 +220,7 @@ namespace FeatherPhysics
         /// In this world's store, see <see cref="FeatherPhysics.Store.CreateCompound(ReadOnlySpan{CompoundPart})"/>.
         /// </summary>
         public Compound CreateCompound(ReadOnlySpan<CompoundPart> parts) { return Store.CreateCompound(parts); }
+        /// <summary>The same of parts one by one.</summary>
         public Compound CreateCompound(params CompoundPart[] parts) { return Store.CreateCompound(parts); }
 
         // ---- the step, and what is read after it ----
@@ -333,6 +340,7 @@ namespace FeatherPhysics
                 return value;
             }
         }
+        /// <summary>Sizes of the world now, and of what its last step did.</summary>
         public WorldCounters Counters
         {
             get
@@ -420,6 +428,7 @@ namespace FeatherPhysics
                 Native.world_get_transforms_f32(P, b, &origin, t, 0, bodies.Length);
             GC.KeepAlive(this);
         }
+        /// <summary>Puts each where its transform says, at once: all or none.</summary>
         public void SetTransforms(ReadOnlySpan<BodyHandle> bodies, ReadOnlySpan<WorldTransform> transforms)
         {
             CheckLength(bodies.Length, transforms.Length, "World.SetTransforms", "transforms");
@@ -428,6 +437,7 @@ namespace FeatherPhysics
                 Native.world_set_transforms(P, b, t, 0, bodies.Length);
             GC.KeepAlive(this);
         }
+        /// <summary>Velocities of each, m/s and rad/s: all or none.</summary>
         public void GetVelocities(ReadOnlySpan<BodyHandle> bodies, Span<LinearAngular> velocities)
         {
             CheckLength(bodies.Length, velocities.Length, "World.GetVelocities", "velocities");
@@ -436,6 +446,7 @@ namespace FeatherPhysics
                 Native.world_get_velocities(P, b, v, 0, bodies.Length);
             GC.KeepAlive(this);
         }
+        /// <summary>Sets velocities of each, m/s and rad/s: all or none.</summary>
         public void SetVelocities(ReadOnlySpan<BodyHandle> bodies, ReadOnlySpan<LinearAngular> velocities)
         {
             CheckLength(bodies.Length, velocities.Length, "World.SetVelocities", "velocities");

@@ -27,6 +27,7 @@ namespace FeatherPhysics
 
         // ---- distance ----
 
+        /// <summary>Makes a joint of a definition whose bodies and frames are set.</summary>
         public Joint CreateJoint(DistanceJointDef def)
         {
             NotNull(def, "World.CreateJoint");
@@ -59,6 +60,7 @@ namespace FeatherPhysics
 
         // ---- ball ----
 
+        /// <summary>Makes a joint of a definition whose bodies and frames are set.</summary>
         public Joint CreateJoint(BallJointDef def)
         {
             NotNull(def, "World.CreateJoint");
@@ -92,6 +94,7 @@ namespace FeatherPhysics
 
         // ---- hinge ----
 
+        /// <summary>Makes a joint of a definition whose bodies and frames are set.</summary>
         public Joint CreateJoint(HingeJointDef def)
         {
             NotNull(def, "World.CreateJoint");
@@ -124,6 +127,7 @@ namespace FeatherPhysics
 
         // ---- fixed ----
 
+        /// <summary>Makes a joint of a definition whose bodies and frames are set.</summary>
         public Joint CreateJoint(FixedJointDef def)
         {
             NotNull(def, "World.CreateJoint");
@@ -156,6 +160,7 @@ namespace FeatherPhysics
 
         // ---- configurable ----
 
+        /// <summary>Makes a joint of a definition whose bodies and frames are set.</summary>
         public Joint CreateJoint(ConfigurableJointDef def)
         {
             NotNull(def, "World.CreateJoint");

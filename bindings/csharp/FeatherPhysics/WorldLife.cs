@@ -78,6 +78,7 @@ namespace FeatherPhysics
         public World(WorldDef def = null, Pool pool = null, Store store = null)
             : this(def, pool, store, null, null, 0) { }
 
+        /// <summary>A world of defaults but for its gravity, m/s2.</summary>
         public World(Vector3 gravity) : this(new WorldDef { Gravity = gravity }) { }
 
         /// The world that the bytes are of; null: an empty one.
@@ -202,6 +203,7 @@ namespace FeatherPhysics
             safe.Dispose();
         }
 
+        /// <summary>True after Dispose.</summary>
         public bool IsDisposed { get { return pointer == IntPtr.Zero; } }
 
         void* P

@@ -543,7 +543,9 @@ export interface JointState {
 }
 /** Where a ray or a moving form met a body. */
 export interface Hit {
+    /** that was hit */
     body: number;
+    /** of the body */
     shape: number;
     /** on the body's surface, m, world space; started inside: where the centre started */
     point: Vec3;
@@ -566,7 +568,9 @@ export interface Hit {
 }
 /** A shape that a geometry overlaps, and the shortest translation that parts the two. */
 export interface Overlap {
+    /** that overlaps */
     body: number;
+    /** of the body */
     shape: number;
     /** fe_material.user_id where it is deepest */
     material: number | bigint;
@@ -581,7 +585,9 @@ export interface Overlap {
 }
 /** The point of a surface that is closest to a point. */
 export interface Closest {
+    /** that is closest */
     body: number;
+    /** of the body */
     shape: number;
     /** of the shape's surface, m, world space */
     point: Vec3;
@@ -601,9 +607,13 @@ export interface Closest {
 /** Two shapes began to touch, went on, or ceased: a point had an impulse, or a gap of 0 or less, during the step. A is
  * the body created first. After the exit caused by a destruction, the handles of what was destroyed are stale. */
 export interface PairEvent {
+    /** the two that met */
     bodyA: number;
+    /** the two that met */
     bodyB: number;
+    /** of these bodies */
     shapeA: number;
+    /** of these bodies */
     shapeB: number;
     /** FE_EVENT_ENTER, FE_EVENT_STAY, FE_EVENT_EXIT */
     kind: EventKind;
@@ -620,15 +630,20 @@ export interface PairEvent {
 }
 /** A body fell asleep or woke. */
 export interface BodyEvent {
+    /** that fell asleep or woke */
     body: number;
     /** FE_EVENT_SLEEP, FE_EVENT_WAKE */
     kind: EventKind;
 }
 /** An impact. */
 export interface HitEvent {
+    /** the two that met */
     bodyA: number;
+    /** the two that met */
     bodyB: number;
+    /** of these bodies */
     shapeA: number;
+    /** of these bodies */
     shapeB: number;
     /** fe_material.user_id where they met */
     materialA: number | bigint;
@@ -653,6 +668,7 @@ export interface HitEvent {
 }
 /** A joint's reaction exceeded its break_force or break_torque in the last step: it is gone, its handle stale. */
 export interface JointEvent {
+    /** that broke */
     joint: number;
     /** 0: the world */
     bodyA: number;
@@ -672,9 +688,13 @@ export interface JointEvent {
 /** A pair of shapes has one, with compounds each pair of parts; with a heightfield or a mesh one for each direction in
  * which it is touched, at most 6. */
 export interface Contact {
+    /** the two that met */
     bodyA: number;
+    /** the two that met */
     bodyB: number;
+    /** of these bodies */
     shapeA: number;
+    /** of these bodies */
     shapeB: number;
     /** fe_material.user_id under the deepest point */
     materialA: number | bigint;
@@ -741,7 +761,9 @@ export interface DrawInstance {
     type: GeometryType;
     /** as in fe_draw_vertex */
     rgba: number;
+    /** that it shows */
     shape: number;
+    /** of the shape */
     body: number;
     /** of a hull, a heightfield, a mesh; else 0 */
     asset: number;
@@ -1237,6 +1259,7 @@ export interface ShapeDefOptions {
     frame?: FrameOptions;
     /** 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0 */
     trigger?: boolean | 0 | 1;
+    /** its surface */
     material?: MaterialOptions;
     /** exactly one bit. Default 1 */
     layer?: number;
