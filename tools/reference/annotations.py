@@ -414,4 +414,3 @@ def text():
         lines += [f"---@param {n} {k}" for n, k in given] + [f"---@return {back.get(name, 'any')}"]
         lines += [f"function feather.{name}({', '.join(n.rstrip('?') for n, _ in given)}) end", ""]
     return "\n".join(lines + ["return feather", ""])
-

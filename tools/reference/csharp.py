@@ -15,15 +15,17 @@ RECORDS = ROOT / "bindings/csharp/records.py"
 HEADER = ROOT / "include/feather.h"
 OBJECTS = "World Body Shape Joint Geometry Pool Store Asset Heightfield ConvexHull TriangleMesh Compound State History"
 OBJECTS += " Batch BatchArray Recorder Recording Player Snapshot"
-MODIFIERS = "static readonly sealed override virtual abstract unsafe const partial new extern implicit explicit ref".split()
+MODIFIERS = (
+    "static readonly sealed override virtual abstract unsafe const partial new extern implicit explicit ref".split()
+)
 # What every value has: named in a line of their own
 COMMON = {"Equals", "GetHashCode", "ToString", "operator ==", "operator !="}
 OPENING = [
     "Every public name of `FeatherPhysics`, with its signature and its sentences. [docs/csharp.md](../csharp.md) is the "
     "guide; begin there. Units are metres, kilograms, seconds and radians. The package's XML file has the same "
     "sentences for your editor.",
-    "\"In C\" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call "
-    "throws a [FeatherException](#featherexception) with the library's sentence, and has changed nothing. \"Errors\" "
+    '"In C" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call '
+    'throws a [FeatherException](#featherexception) with the library\'s sentence, and has changed nothing. "Errors" '
     "lists what is special to a member.",
     "Made by `tools/annotate` from the sources and the header.",
 ]
@@ -31,8 +33,12 @@ OPENING = [
 
 def without_unity(text):
     """What .NET compiles of #if ... #else ... #endif: no condition of these sources holds there."""
-    text = re.sub(r"^\s*#if .*?\n(.*?)^\s*#endif", lambda m: re.split(r"^\s*#else.*\n", m[1], flags=re.M)[-1]
-                  if "#else" in m[1] else "", text, flags=re.M | re.S)
+    text = re.sub(
+        r"^\s*#if .*?\n(.*?)^\s*#endif",
+        lambda m: re.split(r"^\s*#else.*\n", m[1], flags=re.M)[-1] if "#else" in m[1] else "",
+        text,
+        flags=re.M | re.S,
+    )
     return re.sub(r"^\s*#.*\n", "", text, flags=re.M)
 
 
@@ -55,7 +61,9 @@ def without_attributes(head):
 def told_of(comment):
     """(summary, {parameter: sentence})"""
     text = " ".join(comment.split())
-    text = re.sub(r'<(?:see|seealso|paramref|typeparamref) (?:cref|name|langword) ?= ?"(?:\w:)?([^"]*)" ?/>', r"`\1`", text)
+    text = re.sub(
+        r'<(?:see|seealso|paramref|typeparamref) (?:cref|name|langword) ?= ?"(?:\w:)?([^"]*)" ?/>', r"`\1`", text
+    )
     text = re.sub(r"<c>(.*?)</c>", r"`\1`", text)
     summary = re.search(r"<summary>(.*?)</summary>", text)
     parameters = dict(re.findall(r'<param name="(\w+)">(.*?)</param>', text))
@@ -132,7 +140,9 @@ class Reader:
             return [(plain.split()[-1], plain + accessors(body), "")]
         declared, _, value = plain.partition(" = ")
         what, names = re.match(r"((?:(?:%s) )*[\w.<>\[\]?]+) (.*)" % "|".join(MODIFIERS), declared).groups()
-        shown = {n: n + (f" = {value}" if "const" in what or "static" in what and value else "") for n in names.split(", ")}
+        shown = {
+            n: n + (f" = {value}" if "const" in what or "static" in what and value else "") for n in names.split(", ")
+        }
         return [(name, text, what.replace("readonly ", "")) for name, text in shown.items()]
 
 
@@ -170,8 +180,14 @@ def enumerators(body):
     for comment, head, _ in statements(re.sub(r",", ";", without_comments_commas(body)) + ";", lambda head: True):
         if head:
             name, _, value = head.partition(" = ")
-            made.append(Member(name, f"{name} = {value}" if value else name, told_of(comment.replace("\x00", ","))[0],
-                               is_value=True))
+            made.append(
+                Member(
+                    name,
+                    f"{name} = {value}" if value else name,
+                    told_of(comment.replace("\x00", ","))[0],
+                    is_value=True,
+                )
+            )
     return made
 
 
@@ -192,6 +208,7 @@ def made_records():
 
 def group_of(kind):
     members = [m for m in kind.members if m.name not in COMMON]
+    members.sort(key=lambda m: m.name != kind.name)  # constructors first
     common = [m.name for m in kind.members if m.name in COMMON]
     told = kind.told
     if kind.parameters:
@@ -205,7 +222,7 @@ def group_of(kind):
 
 def sections_of(header):
     reader = Reader(header)
-    for file in sorted(SOURCES.glob("*.cs")):
+    for file in sorted(SOURCES.glob("*.cs"), key=lambda f: (f.stem != "World", not f.stem.startswith("World"), f.stem)):
         reader.read(file.read_text(encoding="utf-8"))
     reader.read(made_records())
     types = reader.types
@@ -215,8 +232,13 @@ def sections_of(header):
     enums = [n for n in rest if types[n].kind == "enum"]
     definitions = [n for n in rest if n.endswith("Def") or n in ("WorldTuning", "DrawOptions")]
     records = [n for n in rest if n not in errors and n not in enums and n not in definitions]
-    found = [("Objects", objects), ("Definitions", definitions), ("Records and values", records),
-             ("Enumerations", enums), ("Errors", errors)]
+    found = [
+        ("Objects", objects),
+        ("Definitions", definitions),
+        ("Records and values", records),
+        ("Enumerations", enums),
+        ("Errors", errors),
+    ]
     return [Section(title, [group_of(types[n]) for n in names]) for title, names in found]
 
 
@@ -226,7 +248,9 @@ def pascal(name):
 
 def words_of(header):
     source = (SOURCES / "Errors.cs").read_text(encoding="utf-8")
-    errors = {pascal(f"error_{c.lower()}"): kind for c, kind in re.findall(r"Result\.Error(\w+): return new (\w+)", source)}
+    errors = {
+        pascal(f"error_{c.lower()}"): kind for c, kind in re.findall(r"Result\.Error(\w+): return new (\w+)", source)
+    }
     made = made_records()
     known = dict(re.findall(r'"(fe_\w+)": "(\w+)"', RECORDS.read_text(encoding="utf-8")))
     types = set(re.findall(r"^    (?:public|internal) [\w ]*?(?:class|struct|enum) (\w+)", made, re.M))

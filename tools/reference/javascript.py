@@ -19,8 +19,8 @@ OPENING = [
     "Every public name of `feather-physics`, with its signature and its sentences. [docs/javascript.md]"
     "(../javascript.md) is the guide; begin there. Units are metres, kilograms, seconds and radians. The package's "
     "types have the same sentences for your editor.",
-    "\"In C\" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call "
-    "throws a [FeatherError](#feathererror) with the library's sentence, and has changed nothing. \"Errors\" lists "
+    '"In C" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call '
+    'throws a [FeatherError](#feathererror) with the library\'s sentence, and has changed nothing. "Errors" lists '
     "what is special to a member, by the error's `code`.",
     "Made by `tools/annotate` from `bindings/js` and the header.",
 ]
@@ -61,7 +61,9 @@ class Reader:
 
     def read(self, text):
         for comment, head, body in statements(text, has_body):
-            found = re.match(r"(?:export )?(?:default )?(?:declare )?(class|interface|type|const|function) (\w+)(.*)", head)
+            found = re.match(
+                r"(?:export )?(?:default )?(?:declare )?(class|interface|type|const|function) (\w+)(.*)", head
+            )
             if found and "export" in head:
                 self.declaration(comment, found[1], found[2], head, found[3], body)
 
@@ -163,7 +165,7 @@ def words_group(one, enum, told):
     front = re.sub(r"_(type|kind|flags)$", "", enum.name).upper() + "_"
     rows = []
     for item in enum.items:
-        short = item.name[len(front):] if item.name.startswith(front) else item.name[3:]
+        short = item.name[len(front) :] if item.name.startswith(front) else item.name[3:]
         rows.append(Member(item.name, f"'{camel(short.lower())}'", item.told, is_value=True))
     return Group(one.name, told or enum.told or "Words for what C has as numbers.", one.head, rows)
 
@@ -204,18 +206,31 @@ def sections_of(header, text):
     options = sorted(n for n in rest if n.endswith("Options"))
     words = sorted(n for n in rest if types[n].kind in ("type", "const"))
     records = sorted(n for n in rest if n not in functions and n not in options and n not in words)
-    found = [("Objects", objects), ("Functions", functions), ("Options", options), ("Records", records),
-             ("Words and types", words), ("Errors", ["FeatherError"])]
-    sections = [Section(title, [group_of(types, n, reader.by_hand, enums_of(header)) for n in listed]) for title, listed in found]
+    found = [
+        ("Objects", objects),
+        ("Functions", functions),
+        ("Options", options),
+        ("Records", records),
+        ("Words and types", words),
+        ("Errors", ["FeatherError"]),
+    ]
+    sections = [
+        Section(title, [group_of(types, n, reader.by_hand, enums_of(header)) for n in listed])
+        for title, listed in found
+    ]
     sections.insert(0, Section("Module", [module_group()]))
     return sections + [entry_section(header, entry, title) for entry, title in ENTRIES.items()]
 
 
 def module_group():
-    told = ("`import Feather from \"feather-physics\"`, then `const { World } = await Feather()`: what is below is in the "
-            "module that it gives.")
-    made = [Member("Feather", "Feather(source?): Promise<FeatherModule>", "Loads the module, once."),
-            Member("Feather.sync", "Feather.sync(source?): FeatherModule", "The same at once, from bytes or a module.")]
+    told = (
+        '`import Feather from "feather-physics"`, then `const { World } = await Feather()`: what is below is in the '
+        "module that it gives."
+    )
+    made = [
+        Member("Feather", "Feather(source?): Promise<FeatherModule>", "Loads the module, once."),
+        Member("Feather.sync", "Feather.sync(source?): FeatherModule", "The same at once, from bytes or a module."),
+    ]
     return Group("Feather", told, "", made)
 
 
@@ -232,7 +247,7 @@ def entry_section(header, entry, title):
 def words_of(header):
     def enumerator(kind, item):
         front = re.sub(r"_(type|kind|flags)$", "", kind).upper() + "_"
-        short = item[len(front):] if item.startswith(front) else item[3:]
+        short = item[len(front) :] if item.startswith(front) else item[3:]
         return f"'{camel(short.lower())}'" if kind != "fe_result" else None
 
     def type_name(name):

@@ -10,8 +10,8 @@ OPENING = [
     "Every public name of the Lua layer, with its signature and its sentences. [docs/lua.md](../lua.md) is the guide; "
     "begin there. Units are metres, kilograms, seconds and radians. A `?` marks what may be left out; a parameter "
     "without a type is a number or says what it is by its name.",
-    "\"In C\" names the functions of [include/feather.h](../../include/feather.h) that a method calls. A failed call "
-    "raises an error with the library's sentence, and has changed nothing. \"Errors\" lists what is special to a "
+    '"In C" names the functions of [include/feather.h](../../include/feather.h) that a method calls. A failed call '
+    'raises an error with the library\'s sentence, and has changed nothing. "Errors" lists what is special to a '
     "method, by the names of C.",
     "Made by `tools/annotate` from `bindings/lua/feather` and the header. Editors read the same in "
     "[bindings/lua/library](../../bindings/lua/library/feather.lua).",
@@ -61,7 +61,7 @@ def module_group():
                 parameters = [annotations_of(name, one.strip()) for one in inside.split(",") if one.strip()]
                 told = comment_before(lines, found[0])
                 made.append(member("feather", name, parameters, BACK.get(name, []), told, core_calls(lines, found[0])))
-    return Group("feather", "What `require(\"feather\")` returns.", "", made)
+    return Group("feather", 'What `require("feather")` returns.', "", made)
 
 
 BACK = {

@@ -36,7 +36,9 @@ class Section:
 
 
 # What is a name of C, or of a field, in prose
-NAMES = re.compile(r"\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?")
+NAMES = re.compile(
+    r"\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
+)
 
 # ---- text -----------------------------------------------------------------------------------------------------------
 
@@ -91,9 +93,13 @@ class Words:
 
     def learn(self, sections):
         """Which member calls which function: the one that calls it alone, before one that calls others too."""
-        found = [(len(m.functions), f, g, m) for s in sections for g in s.groups for m in g.members for f in m.functions]
+        found = [
+            (len(m.functions), f, g, m) for s in sections for g in s.groups for m in g.members for f in m.functions
+        ]
         for _, function, group, member in sorted(found, key=lambda one: one[0]):
-            full = f"{group.name}.{member.name}" if group.name and not member.name.startswith(group.name) else member.name
+            full = (
+                f"{group.name}.{member.name}" if group.name and not member.name.startswith(group.name) else member.name
+            )
             self.members.setdefault(function, full)
 
     def name(self, text):
@@ -234,7 +240,9 @@ class Writer:
         first = re.sub(r"fe_[a-z]+_joint_def_at$", "fe_distance_joint_def_at", first)
         fields = header.structs[f"fe_{found[1]}_def"].fields if found and f"fe_{found[1]}_def" in header.structs else []
         outs = [p.kind for p in header.functions[function].parameters if p.name.startswith("out_")]
-        tried = [header.functions[name].told for name in (setter, first) if name in header.functions and name != function]
+        tried = [
+            header.functions[name].told for name in (setter, first) if name in header.functions and name != function
+        ]
         tried += [f.told for f in fields if f.name == found[2]]
         tried += [header.structs[kind].told for kind in outs if kind in header.structs and len(outs) == 1]
         prose = next((one for one in (split_comment(text)[0] for text in tried) if one), "")

@@ -30,8 +30,8 @@ STRUCTS = {"Tuning": "fe_world_tuning", "Part": "fe_compound_part"}
 OPENING = [
     "Every public name of `feather_physics`, with its signature and its sentences. [docs/python.md](../python.md) is "
     "the guide; begin there. Units are metres, kilograms, seconds and radians.",
-    "\"In C\" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call "
-    "raises a [FeatherError](#feathererror) with the library's sentence, and has changed nothing. \"Errors\" lists what "
+    '"In C" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call '
+    'raises a [FeatherError](#feathererror) with the library\'s sentence, and has changed nothing. "Errors" lists what '
     "is special to a member.",
     "Made by `tools/annotate` from the package's sources and the header.",
 ]
@@ -41,8 +41,8 @@ class Package:
     """Every module of the package, and where each name of it is defined."""
 
     def __init__(self):
-        self.modules = {f.stem: ast.parse(f.read_text(encoding="utf-8")) for f in sorted(PACKAGE.glob("*.py"))}
-        self.modules["_flat"] = ast.parse((PACKAGE / "_flat.pyi").read_text(encoding="utf-8"))
+        files = [*sorted(PACKAGE.glob("*.py")), PACKAGE / "_flat.pyi"]
+        self.modules = {f.stem: with_comments(f.read_text(encoding="utf-8")) for f in files}
         self.classes = {}
         for tree in self.modules.values():
             for node in tree.body:
@@ -75,12 +75,26 @@ def targets(node):
     return [ast.unparse(one) for one in found]
 
 
+def with_comments(text):
+    """The tree of a source; each assignment has the comment of its last line, or of the line above it."""
+    tree, lines = ast.parse(text), text.split("\n")
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Assign, ast.AnnAssign)):
+            behind = lines[node.end_lineno - 1].encode()[node.end_col_offset :].decode()
+            above = lines[node.lineno - 2].strip()
+            comment = behind.strip() or (above if above.startswith("#") else "")
+            node.comment = comment.lstrip("# ") if comment.startswith("#") and "----" not in comment else ""
+    return tree
+
+
 def text_after(body, at):
-    """The string that stands below a field."""
+    """The string that stands below a field, or its comment."""
+    if getattr(body[at], "comment", "").startswith("type:"):
+        return ""
     following = body[at + 1] if at + 1 < len(body) else None
     if isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant):
         return following.value.value if isinstance(following.value.value, str) else ""
-    return ""
+    return getattr(body[at], "comment", "")
 
 
 def calls(node, functions):
@@ -101,6 +115,28 @@ def parameter_text(argument, default):
     if default is not None:
         text += (" = " if argument.annotation else "=") + ast.unparse(default)
     return text
+
+
+def several(node):
+    """Fields of one line: `force, far = 10.0, 2.4`."""
+    names = [ast.unparse(each) for each in node.targets[0].elts]
+    values = node.value.elts if isinstance(node.value, ast.Tuple) else [None] * len(names)
+    for name, value in zip(names, values):
+        signature = f"{name} = {ast.unparse(value)}" if value is not None else name
+        yield Member(name, signature, node.comment, is_value=True)
+
+
+def attributes(node):
+    """What __init__ gives each object, with the string below it."""
+    for at, one in enumerate(node.body):
+        if not isinstance(one, (ast.Assign, ast.AnnAssign)):
+            continue
+        target = one.targets[0] if isinstance(one, ast.Assign) else one.target
+        kind = shown(one.annotation) if isinstance(one, ast.AnnAssign) else ""
+        for each in target.elts if isinstance(target, ast.Tuple) else [target]:
+            found = re.fullmatch(r"self\.([a-z]\w*)", ast.unparse(each))
+            if found:
+                yield Member(found[1], found[1], text_after(node.body, at), is_value=True, kind=kind)
 
 
 def arguments_of(node, skip_first):
@@ -143,6 +179,8 @@ class Reader:
         found = calls(node, self.functions) + (calls(setter, self.functions) if setter else [])
         note = "" if setter else " (read)"
         told = ast.get_docstring(node) or ""
+        if not told and not found:  # of a tuple: its name says it
+            return Member(node.name, node.name, is_value=True, kind=shown(node.returns))
         return Member(node.name, f"{node.name}{back}{note}", told, list(dict.fromkeys(found)))
 
     def attribute(self, name, node):
@@ -163,7 +201,9 @@ class Reader:
         made_by = self.package.classes.get(ast.unparse(value.func)) if isinstance(value, ast.Call) else None
         if made_by and made_by.name.startswith("_"):
             return self.descriptor(name, made_by)
-        signature = name + (f" = {ast.unparse(value)}" if value is not None and "field(" not in ast.unparse(value) else "")
+        signature = name + (
+            f" = {ast.unparse(value)}" if value is not None and "field(" not in ast.unparse(value) else ""
+        )
         kind = shown(node.annotation) if isinstance(node, ast.AnnAssign) else ""
         return Member(name, signature, text_after(body, at), is_value=True, kind=kind)
 
@@ -184,8 +224,12 @@ class Reader:
         made, body = {}, node.body
         setters = {n.name: n for n in body if isinstance(n, ast.FunctionDef) and f"{n.name}.setter" in decorators(n)}
         for at, one in enumerate(body):
-            if isinstance(one, (ast.Assign, ast.AnnAssign)) and not targets(one)[0].startswith("_"):
+            if isinstance(one, (ast.Assign, ast.AnnAssign)) and not targets(one)[0].startswith(("_", "(")):
                 made[targets(one)[0]] = self.field(body, at)
+            elif isinstance(one, ast.Assign) and isinstance(one.targets[0], ast.Tuple):
+                made.update({each.name: each for each in several(one)})
+            if isinstance(one, ast.FunctionDef) and one.name == "__init__":
+                made.update({each.name: each for each in attributes(one) if each.name not in made})
             if not isinstance(one, ast.FunctionDef) or "overload" in decorators(one) or one in setters.values():
                 continue
             if one.name in PROTOCOL:
@@ -211,7 +255,9 @@ class Reader:
             return Group(name, text_after(tree.body, at) or "An alias.", f"{name} = {shown(node.value)}")
         members = {}
         for one in self.family(node):
-            members.update(self.members(one, name))
+            for each, made in self.members(one, name).items():
+                made.told = made.told or (members[each].told if each in members else "")  # as inspect.getdoc does
+                members[each] = made
         struct = self.structs.get(STRUCTS.get(name) or f"fe_{snake(name)}")
         if struct and (not told or members and all(m.is_value for m in members.values())):
             self.from_struct(struct, members)
@@ -256,7 +302,16 @@ def words_of(header):
     errors = (PACKAGE / "errors.py").read_text(encoding="utf-8")
     classes = dict(re.findall(r'class (\w+)\(.*?\):\n    """[^"]*?\((FE_ERROR_\w+)\)', errors, re.S))
     by_code = {code: name for name, code in classes.items()}
-    texts = {"fe_body_type", "fe_joint_type", "fe_combine", "fe_motion", "fe_spring", "fe_dof", "fe_simd", "fe_event_kind"}
+    texts = {
+        "fe_body_type",
+        "fe_joint_type",
+        "fe_combine",
+        "fe_motion",
+        "fe_spring",
+        "fe_dof",
+        "fe_simd",
+        "fe_event_kind",
+    }
 
     def enumerator(kind, item):
         front = kind.rsplit("_", 1)[0] if kind.endswith(("_type", "_kind")) else kind

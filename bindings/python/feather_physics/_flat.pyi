@@ -4,6 +4,8 @@ where it is written."""
 from typing import Any, Tuple
 
 class Vec3(Tuple[float, float, float]):
+    """Three numbers with names: m, m/s, N... as what returns it says."""
+
     @property
     def x(self) -> float: ...
     @property
@@ -12,6 +14,8 @@ class Vec3(Tuple[float, float, float]):
     def z(self) -> float: ...
 
 class Quat(Tuple[float, float, float, float]):
+    """A rotation of length 1: x, y, z, w."""
+
     @property
     def x(self) -> float: ...
     @property
@@ -22,12 +26,16 @@ class Quat(Tuple[float, float, float, float]):
     def w(self) -> float: ...
 
 class Transform(Tuple[Vec3, Quat]):
+    """A pose in the world: where, m, and how it is turned."""
+
     @property
     def position(self) -> Vec3: ...
     @property
     def rotation(self) -> Quat: ...
 
 class Bounds(Tuple[Vec3, Vec3]):
+    """A box along the world's axes, m: its least and its greatest corner."""
+
     @property
     def lower(self) -> Vec3: ...
     @property

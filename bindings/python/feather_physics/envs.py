@@ -45,8 +45,8 @@ class Task:
     dt: float = 1 / 60  # s, of a step of the world
     steps: int = 1  # of the world for each action
     limit: int = 1000  # actions, after which an episode is cut short (truncated)
-    observation_space: Any
-    action_space: Any
+    observation_space: Any  # of one world: see feather_physics.spaces
+    action_space: Any  # of one world
 
     def build(self) -> World:
         """The world that all are clones of."""
@@ -79,22 +79,24 @@ class VectorEnv:
     not count for it), "same_step" (at once; info["final_obs"] has what was last seen), "disabled" (by
     reset(options={"reset_mask": mask}), before it is stepped again)."""
 
-    spec = None
-    render_mode = None
+    spec = None  # Gymnasium's, of registered environments
+    render_mode = None  # pictures are world.picture()'s
 
     def __init__(
         self, task: Task, num_envs: int = 1, *, workers: int = 1, simd: str = "auto", autoreset: str = "next_step"
     ):
         if autoreset not in MODES:
             raise InvalidArgumentError(f"autoreset: one of {', '.join(MODES)} is needed, not {autoreset!r}")
-        self.task, self.num_envs = task, num_envs
-        self.metadata: Dict[str, Any] = {"autoreset_mode": MODES[autoreset], "render_modes": []}
-        self.single_observation_space, self.single_action_space = task.observation_space, task.action_space
-        self.observation_space = batch(task.observation_space, num_envs)
-        self.action_space = batch(task.action_space, num_envs)
-        self.world = task.build()
-        self.worlds = Worlds(self.world, num_envs, workers=workers, simd=simd)
-        self.closed = False
+        self.task = task  # what is learnt
+        self.num_envs = num_envs  # worlds
+        self.metadata: Dict[str, Any] = {"autoreset_mode": MODES[autoreset], "render_modes": []}  # Gymnasium's
+        self.single_observation_space = task.observation_space  # of one world
+        self.single_action_space = task.action_space  # of one world
+        self.observation_space = batch(task.observation_space, num_envs)  # of all: a row each
+        self.action_space = batch(task.action_space, num_envs)  # of all: a row each
+        self.world = task.build()  # the one that all are clones of
+        self.worlds = Worlds(self.world, num_envs, workers=workers, simd=simd)  # the clones
+        self.closed = False  # True after close()
         self._mode = MODES[autoreset]
         self._outputs: List[Tuple[str, Optional[Sequence[Any]], Any, Optional[Body]]] = []
         self._seed: Optional[int] = None

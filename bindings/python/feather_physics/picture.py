@@ -31,6 +31,7 @@ def take(
     direction: Vector,
     parts: Iterable[str],
 ) -> bytes:
+    """A PNG of a world, from an eye to a target, or of the whole of it from a direction."""
     if (eye is None) != (target is None):
         raise InvalidArgumentError("eye and target: both or none")
     if eye is None or target is None:

@@ -478,7 +478,7 @@ class Packed:
         names: List[str] = []
         formats: List[Any] = []
         offsets: List[int] = []
-        self.format = "="
+        self.format = "="  # as of struct
         for name, code in (field.split(":") for field in fields.split()):
             count, _, inner = code.partition("*")
             record: Optional[Packed] = globals()[inner] if inner else None
@@ -488,8 +488,11 @@ class Packed:
                 formats.append((record.dtype, (int(count),)) if record else _numpy_format(code))
             self.format += record.format[1:] * int(count) if record else code
         packed = struct.Struct(self.format)
-        self.size = packed.size
-        self.pack, self.unpack, self.iter_unpack = packed.pack, packed.unpack, packed.iter_unpack
+        self.size = packed.size  # bytes of a record
+        self.pack = packed.pack  # values to bytes
+        self.unpack = packed.unpack  # bytes of one record to its values
+        self.iter_unpack = packed.iter_unpack  # bytes of many to an iterator of their values
+        # what numpy.dtype() takes
         self.dtype: Dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets, "itemsize": self.size}
 
 

@@ -159,9 +159,9 @@ class Built:
     whether they are triangles."""
 
     def __init__(self) -> None:
-        self.bodies: Dict[str, Body] = {}
-        self.joints: Dict[str, Joint] = {}
-        self.assets: Dict[Tuple[str, bool], Union[Hull, Mesh]] = {}
+        self.bodies: Dict[str, Body] = {}  # by name
+        self.joints: Dict[str, Joint] = {}  # by name
+        self.assets: Dict[Tuple[str, bool], Union[Hull, Mesh]] = {}  # by mesh, and whether they are triangles
 
 
 @dataclass

@@ -35,6 +35,7 @@ class _Space:
         self.seed(seed)
 
     def seed(self, seed: Optional[int] = None) -> None:
+        """Begins the numbers of sample() anew."""
         self.np_random = np.random.default_rng(seed)
 
 
@@ -49,10 +50,12 @@ class OwnBox(_Space):
         self.high = np.array(np.broadcast_to(high, self.shape), self.dtype)
 
     def sample(self) -> Any:
+        """One of them, at random."""
         low, high = np.nan_to_num(self.low, neginf=-1e6), np.nan_to_num(self.high, posinf=1e6)
         return self.np_random.uniform(low, high).astype(self.dtype)
 
     def contains(self, x: Any) -> bool:
+        """Is it one of them, in form and range?"""
         x = np.asarray(x)
         return x.shape == self.shape and bool(np.all((x >= self.low) & (x <= self.high)))
 
@@ -72,9 +75,11 @@ class OwnDiscrete(_Space):
         self.n, self.start = np.int64(n), np.int64(start)
 
     def sample(self) -> Any:
+        """One of them, at random."""
         return self.start + self.np_random.integers(self.n)
 
     def contains(self, x: Any) -> bool:
+        """Is it one of them, in form and range?"""
         x = np.asarray(x)
         return x.shape == () and x.dtype.kind in "iu" and bool(self.start <= x < self.start + self.n)
 
@@ -93,9 +98,11 @@ class OwnMultiDiscrete(_Space):
         super().__init__(self.nvec.shape, dtype, seed)
 
     def sample(self) -> Any:
+        """One of them, at random."""
         return self.np_random.integers(self.nvec, dtype=self.dtype)
 
     def contains(self, x: Any) -> bool:
+        """Is it one of them, in form and range?"""
         x = np.asarray(x)
         return x.shape == self.shape and x.dtype.kind in "iu" and bool(np.all((x >= 0) & (x < self.nvec)))
 

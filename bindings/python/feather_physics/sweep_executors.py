@@ -27,9 +27,11 @@ class Runner:
         self._world = world
 
     def submit(self, chunk: Chunk) -> "Future[Any]":
+        """Gives some parameters to a worker."""
         return self.executor.submit(run_chunk, chunk, self._world)
 
     def worker_count(self) -> int:
+        """How many run at once, as far as the executor says."""
         for name in ("num_workers", "_max_workers"):
             count = getattr(self.executor, name, None)
             if isinstance(count, int) and count > 0:
@@ -155,6 +157,7 @@ def _processes(count: int, function: Callable[..., Any], world: Optional[bytes])
 
 
 def runner_for(executor: Any, function: Callable[..., Any], world: Optional[bytes], retries: int) -> Runner:
+    """The runner of what sweep() was given as its executor."""
     if executor is None:
         return _Serial(_Here(), world)
     if isinstance(executor, int) and not isinstance(executor, bool):

@@ -68,6 +68,7 @@ class Results:
         link.commit()
 
     def read(self) -> List[Tuple[int, Any]]:
+        """What an earlier run left: place and result."""
         try:
             rows = self._link.execute("SELECT place, data FROM results ORDER BY place").fetchall()
         except self._errors.DatabaseError as error:
@@ -80,4 +81,5 @@ class Results:
             self._link.executemany("INSERT OR REPLACE INTO results VALUES (?, ?)", rows)
 
     def close(self) -> None:
+        """Closes the file."""
         self._link.close()

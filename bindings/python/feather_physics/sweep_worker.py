@@ -24,12 +24,16 @@ class Fingerprint(NamedTuple):
 
 
 class Outcome(NamedTuple):
+    """What became of one parameter."""
+
     place: int
     succeeded: bool
     data: bytes  # the pickle of the result, or of the exception and its traceback
 
 
 class Report(NamedTuple):
+    """What a worker returns of a chunk, and how long it took."""
+
     seconds: float
     outcomes: List[Outcome]
 
@@ -47,6 +51,7 @@ class Chunk:
 
 @functools.lru_cache(None)
 def fingerprint() -> Fingerprint:
+    """Of this process's library: its version, and the hash of a small scene."""
     version = ".".join(str(_flat.version() >> shift & 0xFF) for shift in (16, 8, 0))
     with World(number=1) as world:
         world.create_body("static").add_plane()
@@ -93,6 +98,7 @@ def comes_again(error: Exception) -> bool:
 
 
 def run_one(function: Callable[..., Any], world: Optional[bytes], parameter: Any) -> bytes:
+    """The pickle of a result."""
     if world is None:
         return dump(function(parameter))
     return dump(function(pickle.loads(world), parameter))
@@ -118,5 +124,6 @@ def run_chunk(chunk: Chunk, world: Optional[bytes]) -> Union[Report, Unsupported
 
 
 def load_error(data: bytes) -> Tuple[Exception, str]:
+    """What dump_error() made: the error, and its traceback as text."""
     error, told = pickle.loads(data)
     return error, told

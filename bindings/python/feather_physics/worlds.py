@@ -56,7 +56,9 @@ class Worlds:
         """Workers, 1 to 64, are threads of its own unless a pool is given. Block: worlds that a worker takes at once,
         0: chosen."""
         if world._pair_filter is not None:
-            raise UnsupportedError("Worlds: the world has a pair filter, which is a function of one world; clone() takes it along")
+            raise UnsupportedError(
+                "Worlds: the world has a pair filter, which is a function of one world; clone() takes it along"
+            )
         kept = (pool and pool._capsule, None if world._has_own_store else world._store._capsule)
         self._capsule = _flat.batch_create(
             world._capsule, count, workers, block, word(SIMD_SETS, simd, "simd"), pool and pool._capsule, kept
@@ -64,9 +66,10 @@ class Worlds:
         self._count, self._world, self._pool = count, world, pool
         self._bound: Tuple[List[Any], List[Any]] = ([], [])
         self._views: "weakref.WeakValueDictionary[int, World]" = weakref.WeakValueDictionary()
-        self.results = arrays.array("i", bytes(4 * count))
+        self.results = arrays.array("i", bytes(4 * count))  # of the last call, a world each: 0, or its error
 
     def __len__(self) -> int:
+        """How many worlds there are."""
         return self._count
 
     def __getitem__(self, index: int) -> World:
@@ -131,7 +134,13 @@ class Worlds:
         self._bound = ([], [])
 
     def _bind(
-        self, side: int, field: str, items: Optional[Sequence[Any]], out: Any, relative_to: Optional[Body], origin: Vector
+        self,
+        side: int,
+        field: str,
+        items: Optional[Sequence[Any]],
+        out: Any,
+        relative_to: Optional[Body],
+        origin: Vector,
     ) -> Any:
         made = self.array(field, items) if out is None else out
         bound = list(self._bound[0]), list(self._bound[1])
