@@ -43,7 +43,8 @@ def without_unity(text):
 
 
 def has_body(head):
-    head = re.sub(r"\([^()]*\)", "", head)
+    while re.search(r"\([^()]*\)", head):
+        head = re.sub(r"\([^()]*\)", "", head)
     return "operator" in head or not re.search(r"(?<![=!<>])=(?!=)", head)
 
 
@@ -138,12 +139,9 @@ class Reader:
             return [(re.search(r"(\w+)(?:<[^>]*>)?\(", plain)[1], plain, "")]
         if body is not None:
             return [(plain.split()[-1], plain + accessors(body), "")]
-        declared, _, value = plain.partition(" = ")
-        what, names = re.match(r"((?:(?:%s) )*[\w.<>\[\]?]+) (.*)" % "|".join(MODIFIERS), declared).groups()
-        shown = {
-            n: n + (f" = {value}" if "const" in what or "static" in what and value else "") for n in names.split(", ")
-        }
-        return [(name, text, what.replace("readonly ", "")) for name, text in shown.items()]
+        what, names = re.match(r"((?:(?:%s) )*[\w.<>\[\]?]+) (.*)" % "|".join(MODIFIERS), plain).groups()
+        each = names.split(", ") if "(" not in names else [names]
+        return [(one.partition(" = ")[0], one, what.replace("readonly ", "")) for one in each]
 
 
 def signature_of(head):
