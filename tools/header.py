@@ -55,6 +55,7 @@ class Function:
     result: str
     parameters: List[Parameter]
     told: str
+    leader: str  # the function above whose comment is of this one, too; "" where it has its own, or nobody has
 
     @property
     def changes_world(self):
@@ -137,6 +138,16 @@ def read_parameters(text):
     return found
 
 
+def read_functions(text, functions):
+    """A comment counts for all functions below it, up to an empty line or the next comment."""
+    leader, end = "", 0
+    for found in re.finditer(r"^FE_API ([\w ]+?[ *]+)(fe_\w+)\(([^)]*)\);", text, re.M):
+        told, name = comment_above(text, found.start()), found[2]
+        led = leader if not told and text[end : found.start()] == "\n" else ""
+        functions[name] = Function(name, found[1].strip(), read_parameters(found[3]), told, led)
+        leader, end = name if told else led, found.end()
+
+
 def read(path=PATH):
     text = path.read_text(encoding="utf-8").split(SUGAR)[0]
     header = Header()
@@ -146,7 +157,5 @@ def read(path=PATH):
             header.enums[found[2]] = Enum(found[2], told, read_enumerators(found[3]), found.start())
         else:
             header.structs[found[2]] = Struct(found[2], told, read_fields(found[3]), found.start())
-    for found in re.finditer(r"^FE_API ([\w ]+?[ *]+)(fe_\w+)\(([^)]*)\);", text, re.M):
-        told = comment_above(text, found.start())
-        header.functions[found[2]] = Function(found[2], found[1].strip(), read_parameters(found[3]), told)
+    read_functions(text, header.functions)
     return header

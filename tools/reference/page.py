@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Dict, List
 
 WIDTH = 118
+GLUE = "\x00"  # a space where no line is broken
 # A line that begins so would be read as a list, a heading, a quotation or a table
 BEGINS_A_BLOCK = re.compile(r"^([-+*>|=]|#+|\d+[.)])$|^[|>#=]|^~~~|^```")
 
@@ -170,8 +171,8 @@ class Writer:
     def page(self, title, opening, sections):
         self.lines = [f"# {title}", "", *self.opening(opening), "## Contents", ""]
         for section in sections:
-            links = ", ".join(f"[{g.name}](#{anchor(g.name)})" for g in section.groups)
-            self.lines += wrapped(links, "  ", f"- {section.title}: ")
+            links = ", ".join(f"[{g.name.replace(' ', GLUE)}](#{anchor(g.name)})" for g in section.groups)
+            self.lines += [line.replace(GLUE, " ") for line in wrapped(links, "  ", f"- {section.title}: ")]
         self.lines.append("")
         for section in sections:
             for group in section.groups:
@@ -232,18 +233,16 @@ class Writer:
 
     @staticmethod
     def said_elsewhere(header, function):
-        """Of a getter its setter says it, of a joint's function that of the first joint, of what a definition begins
-        with its field, of a record its struct: a sentence."""
+        """What the function above says for several, else what a definition says of its field, else a record's struct: a
+        sentence. Of a getter its setter says it."""
+        one, setter = header.functions[function], function.replace("_get_", "_set_")
+        above = [name for name in (setter, one.leader) if name in header.functions and name != function]
+        tried = [header.functions[name].told for name in above[:1] if name == setter]
         found = re.match(r"fe_(\w+?)_(?:get|set)_(\w+)$", function)
-        setter = function.replace("_get_", "_set_")
-        first = re.sub(r"fe_[a-z]+_joint_(create|get|set)$", r"fe_distance_joint_\1", function)
-        first = re.sub(r"fe_[a-z]+_joint_def_at$", "fe_distance_joint_def_at", first)
         fields = header.structs[f"fe_{found[1]}_def"].fields if found and f"fe_{found[1]}_def" in header.structs else []
-        outs = [p.kind for p in header.functions[function].parameters if p.name.startswith("out_")]
-        tried = [
-            header.functions[name].told for name in (setter, first) if name in header.functions and name != function
-        ]
+        outs = [p.kind for p in one.parameters if p.name.startswith("out_")]
         tried += [f.told for f in fields if f.name == found[2]]
+        tried += [header.functions[name].told for name in above]
         tried += [header.structs[kind].told for kind in outs if kind in header.structs and len(outs) == 1]
         prose = next((one for one in (split_comment(text)[0] for text in tried) if one), "")
         return re.split(r"(?<=\w)\.\s", prose + " ")[0].rstrip(". \n") + "." if prose else ""
