@@ -123,6 +123,24 @@ for owner in ("Hull", "Mesh", "Heightfield", "Compound"):
         "isDestroyed": ([], ["boolean"], "True once it is destroyed, or its store."),
         "save": ([], ["string"], "As bytes, for store:load."),
     }
+TOLD = {
+    "World": "Everything that can touch each other.",
+    "Body": "A rigid body. As an end of a joint nil is the world itself.",
+    "Shape": "A form on a body, with material and filters.",
+    "Joint": "A joint of two bodies, or of one and the world.",
+    "Store": "Assets that several worlds may share.",
+    "Pool": "Worker threads that several worlds may share.",
+    "Hull": "A convex hull: an asset of a store.",
+    "Mesh": "Triangles of any form: an asset of a store.",
+    "Heightfield": "Terrain: an asset of a store.",
+    "Compound": "A form of many parts: an asset of a store.",
+    "History": "The last frames of a world, to go back to.",
+    "Recorder": "A recording of a world while it grows, read as strings.",
+    "Recording": "A recording of a world that goes to a file.",
+    "Player": "A world that does what a recording says.",
+    "State": "What a world was, for any world of the same store.",
+    "Batch": "Many worlds, made from one, that step together.",
+}
 # What objects.life makes
 LIFE = (
     ("isDestroyed", [], "True once it is destroyed, or its world."),
@@ -391,7 +409,7 @@ def text():
             lines.append(f"{head} {short}" if short and len(head) + len(short) < 118 else head)
         lines.append("")
     for owner in CLASSES:
-        lines += [f"---@class feather.{owner}", f"local {owner} = {{}}", ""]
+        lines += [f"---{TOLD[owner]}", f"---@class feather.{owner}", f"local {owner} = {{}}", ""]
         made = dict(ALSO.get(owner, {}))
         for method, (names, told, of, called) in methods[owner].items():
             text = told or next(filter(None, (sentence(FUNCTIONS[one].told) for one in called)), "")

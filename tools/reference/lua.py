@@ -44,8 +44,7 @@ def class_group(owner, methods):
     for method, (names, told, of, called) in methods[owner].items():
         parameters = annotations.parameters_of(owner, method, names, of)
         made[method] = member(owner, method, parameters, annotations.returns_of(owner, method, of), told, called)
-    struct = annotations.HEADER.structs.get(f"fe_{owner.lower()}")
-    return Group(owner, struct.told if struct else "", "", [made[name] for name in sorted(made)])
+    return Group(owner, annotations.TOLD[owner], "", [made[name] for name in sorted(made)])
 
 
 def module_group():

@@ -189,7 +189,7 @@ class Writer:
         self.lines += [f"## {group.name}", ""]
         if group.head:
             self.signature(group.head)
-        self.prose(group.told)
+        self.prose(self.words(group.told))
         values = [m for m in group.members if m.is_value]
         if values:
             self.table(values)

@@ -44,6 +44,7 @@ namespace FeatherPhysics
         IntPtr[] states;          // room for Reset
         volatile bool disposed;
 
+        /// <summary>Clones of a world.</summary>
         /// <param name="template">stays yours; its handles name the same things in each world</param>
         /// <param name="def">null: the defaults, one world</param>
         /// <param name="pool">null: workers of its own</param>

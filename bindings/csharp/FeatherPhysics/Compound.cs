@@ -60,6 +60,7 @@ namespace FeatherPhysics
             made.Geometry = geometry;
             this = made;
         }
+        /// <summary>A form at a place in the compound's space, m, not turned.</summary>
         /// <param name="geometry">any but a plane and a compound</param>
         /// <param name="position">in the compound's space, m</param>
         public CompoundPart(Geometry geometry, Vector3 position) : this(geometry) { Frame.Position = position; }

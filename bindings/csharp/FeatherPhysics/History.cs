@@ -13,6 +13,7 @@ namespace FeatherPhysics
         readonly World world;
         IntPtr pointer; // 0 when disposed
 
+        /// <summary>Keeps the last frames of a world, from now on.</summary>
         /// <param name="world">whose frames it keeps</param>
         /// <param name="def">null: the defaults</param>
         public History(World world, HistoryDef def = null)

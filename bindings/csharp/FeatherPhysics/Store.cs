@@ -25,6 +25,7 @@ namespace FeatherPhysics
         readonly IntPtr pointer;
         volatile bool disposed;
 
+        /// <summary>A store that several worlds may share.</summary>
         /// <param name="def">null: the defaults</param>
         public Store(StoreDef def = null)
         {

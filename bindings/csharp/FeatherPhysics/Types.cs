@@ -277,6 +277,7 @@ namespace FeatherPhysics
     {
         internal static readonly uint Size = (uint)sizeof(Geometry);
 
+        /// <summary>A ball.</summary>
         /// <param name="radius">m</param>
         public static Geometry Sphere(float radius)
         {

@@ -72,6 +72,7 @@ namespace FeatherPhysics
         readonly Shell shell = new Shell();
         volatile IntPtr pointer; // 0 when disposed
 
+        /// <summary>A world, with a store of its own unless one is given.</summary>
         /// <param name="def">null: the defaults</param>
         /// <param name="pool">null: workers of its own</param>
         /// <param name="store">of its heightfields; null: one of its own</param>

@@ -2,6 +2,7 @@
 import type { Body, Shape, Joint, Asset } from './index.js';
 /** Read. */
 export interface Vec3 { x: number; y: number; z: number }
+/** A rotation, read: of length 1. */
 export interface Quat { x: number; y: number; z: number; w: number }
 /** Given: an object with x, y, z or an array of 3. */
 export type Vec3Like = Readonly<Vec3> | readonly [number, number, number] | Float32Array | Float64Array;

@@ -318,6 +318,7 @@ export interface BatchArray {
 export type BatchField = Exclude<Field, 'none'>;
 /** What a field of a batch is read or written of. */
 export type Item = Handle<Body> | Handle<Shape> | Handle<Joint>;
+/** Where the numbers of an array are read from. */
 export interface BatchArrayOptions {
     /** Poses relative to this body, vectors along its axes. */
     relativeTo?: Handle<Body>;

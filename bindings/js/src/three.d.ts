@@ -4,7 +4,7 @@ interface Instanced { count: number; readonly instanceMatrix: { readonly count: 
 
 /** Bodies as the instances of an InstancedMesh, drawn between two steps. */
 export class BodyInstances<Mesh extends Instanced = Instanced> {
-    /** @param scales  3 numbers a body, or 3 for all; default 1, 1, 1 */
+    /** The instances of a mesh, one a body. @param scales  3 numbers a body, or 3 for all; default 1, 1, 1 */
     constructor(mesh: Mesh, world: World, bodies: readonly (Body | number)[], scales?: ArrayLike<number>);
     /** What it draws into. */
     readonly mesh: Mesh;

@@ -343,6 +343,7 @@
 ---@field breakForce? number
 ---@field breakTorque? number
 
+---Everything that can touch each other.
 ---@class feather.World
 local World = {}
 
@@ -824,6 +825,7 @@ function World:sweepMany(form, paths, given) end
 ---@return any
 function World:update(dt) end
 
+---A rigid body. As an end of a joint nil is the world itself.
 ---@class feather.Body
 local Body = {}
 
@@ -1173,6 +1175,7 @@ function Body:setType(text) end
 ---@param value any
 function Body:setUserData(value) end
 
+---A form on a body, with material and filters.
 ---@class feather.Shape
 local Shape = {}
 
@@ -1329,6 +1332,7 @@ function Shape:setTrigger(value) end
 ---@param value any
 function Shape:setUserData(value) end
 
+---A joint of two bodies, or of one and the world.
 ---@class feather.Joint
 local Joint = {}
 
@@ -1426,6 +1430,7 @@ function Joint:setTarget(target, dof, z, w) end
 ---@param value any
 function Joint:setUserData(value) end
 
+---Assets that several worlds may share.
 ---@class feather.Store
 local Store = {}
 
@@ -1471,12 +1476,14 @@ function Store:newHull(given) end
 ---@return feather.Mesh
 function Store:newMesh(given) end
 
+---Worker threads that several worlds may share.
 ---@class feather.Pool
 local Pool = {}
 
 ---Ends the threads.
 function Pool:close() end
 
+---A convex hull: an asset of a store.
 ---@class feather.Hull
 local Hull = {}
 
@@ -1510,6 +1517,7 @@ function Hull:isDestroyed() end
 ---@return string
 function Hull:save() end
 
+---Triangles of any form: an asset of a store.
 ---@class feather.Mesh
 local Mesh = {}
 
@@ -1545,6 +1553,7 @@ function Mesh:save() end
 ---@param materials any
 function Mesh:setMaterials(materials) end
 
+---Terrain: an asset of a store.
 ---@class feather.Heightfield
 local Heightfield = {}
 
@@ -1582,6 +1591,7 @@ function Heightfield:save() end
 ---@param heights any
 function Heightfield:setHeights(row, column, rows, columns, heights) end
 
+---A form of many parts: an asset of a store.
 ---@class feather.Compound
 local Compound = {}
 
@@ -1612,6 +1622,7 @@ function Compound:isDestroyed() end
 ---@return string
 function Compound:save() end
 
+---The last frames of a world, to go back to.
 ---@class feather.History
 local History = {}
 
@@ -1632,6 +1643,7 @@ function History:keep(frame) end
 ---@return any
 function History:restore(frame) end
 
+---A recording of a world while it grows, read as strings.
 ---@class feather.Recorder
 local Recorder = {}
 
@@ -1649,6 +1661,7 @@ function Recorder:note(text, about) end
 ---@return any
 function Recorder:read() end
 
+---A recording of a world that goes to a file.
 ---@class feather.Recording
 local Recording = {}
 
@@ -1669,6 +1682,7 @@ function Recording:flush() end
 ---@return any
 function Recording:note(text, about) end
 
+---A world that does what a recording says.
 ---@class feather.Player
 local Player = {}
 
@@ -1717,12 +1731,14 @@ function Player:step() end
 ---@return any
 function Player:steps() end
 
+---What a world was, for any world of the same store.
 ---@class feather.State
 local State = {}
 
 ---Closing again does nothing.
 function State:close() end
 
+---Many worlds, made from one, that step together.
 ---@class feather.Batch
 local Batch = {}
 

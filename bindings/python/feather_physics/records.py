@@ -70,6 +70,7 @@ class Scaled(NamedTuple):
 
 
 Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, Scaled, "Hull", "Mesh", "Heightfield", "Compound"]
+"""The form of a shape, or of a query."""
 
 
 class Material(NamedTuple):
