@@ -141,7 +141,7 @@ TOLD = {
     "State": "What a world was, for any world of the same store.",
     "Batch": "Many worlds, made from one, that step together.",
 }
-# What objects.life makes
+# What objects.life makes; user data is Lua's own, the library's is the tag
 LIFE = (
     ("isDestroyed", [], "True once it is destroyed, or its world."),
     ("destroy", [], ""),
@@ -217,6 +217,11 @@ def guessed(owner, method):
     return [name for name in tried if name in FUNCTIONS]
 
 
+def life_calls(owner, method):
+    called = {"destroy": "destroy", "isDestroyed": "is_valid"}.get(method)
+    return [f"fe_{owner.lower()}_{called}"] if called else []
+
+
 def read_methods():
     """class -> method -> (parameters, sentence, the function of C that is called as it is or None, all that it calls)"""
     methods = {name: {} for name in CLASSES + ["feather"]}
@@ -238,7 +243,7 @@ def read_methods():
                     methods[name]["set" + method] = (None, "", put, [put])
         for name in re.findall(r"objects\.life\((\w+)", text):
             for method, names, told in LIFE:
-                methods[name].setdefault(method, (names, told, None, guessed(name, method)))
+                methods[name].setdefault(method, (names, told, None, life_calls(name, method)))
         lines = text.split("\n")
         for i, line in enumerate(lines):
             found = re.match(r"function (\w+):(\w+)\(([^)]*)\)", line)

@@ -31,7 +31,8 @@ def parameter(name, kind):
 
 def member(owner, method, parameters, back, told, functions):
     inside = ", ".join(parameter(name, kind) for name, kind in parameters)
-    returned = ", ".join(shown(kind) for kind in back)
+    many = len(back) > 4 and len(set(back)) == 1
+    returned = f"{len(back)} {shown(back[0])}s" if many else ", ".join(shown(kind) for kind in back)
     front = f"{owner.lower()}:" if owner != "feather" else "feather."
     signature = f"{front}{method}({inside})" + (f" -> {returned}" if returned and returned != "any" else "")
     return Member(method, signature, told, functions, [name.rstrip("?") for name, _ in parameters])

@@ -214,7 +214,8 @@ class Writer:
 
     def prose(self, text):
         for one in paragraphs(text):
-            self.lines += [*wrapped(safe(one)), ""]
+            end = "." if one[-1].isalnum() else ""
+            self.lines += [*wrapped(safe(one) + end), ""]
 
     def member(self, member):
         self.signature(member.signature)

@@ -66,6 +66,7 @@ function Body:applyAngularImpulse(x, y, z) core.body_add_angular_impulse(self.na
 
 -- ---- what it is -----------------------------------------------------------------------------------------------------
 
+-- "static", "kinematic" or "dynamic".
 function Body:getType() return options.name_of(options.BODY_TYPES, core.body_get_type(self.native, self.id)) end
 function Body:setType(text) core.body_set_type(self.native, self.id, options.word(options.BODY_TYPES, text, "type")) end
 function Body:getLocks()

@@ -10,6 +10,7 @@ local TYPES = { "distance", "ball", "hinge", "fixed", "configurable" }
 objects.life(Joint, "joint")
 objects.accessors(Joint, "joint", { Tag = "user_data", Frames = "frames", Reaction = "reaction" })
 objects.switches(Joint, "joint", { Enabled = "enabled" })
+-- "distance", "ball", "hinge", "fixed" or "configurable".
 function Joint:getType() return TYPES[core.joint_get_type(self.native, self.id)] end
 -- nil for the end that is the world
 function Joint:getBodies()

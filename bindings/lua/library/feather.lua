@@ -958,6 +958,7 @@ function Body:getTag() end
 ---@return number
 function Body:getTransform() end
 
+---"static", "kinematic" or "dynamic".
 ---@return string
 function Body:getType() end
 
@@ -1384,7 +1385,7 @@ function Joint:getState() end
 ---@return integer
 function Joint:getTag() end
 
----fe_joint_type
+---"distance", "ball", "hinge", "fixed" or "configurable".
 ---@return string
 function Joint:getType() end
 
