@@ -135,20 +135,27 @@ class Reader:
 
 
 def hand_calls(functions):
-    """(class, method): functions of C, of the sources that are written by hand."""
-    found = {}
+    """(class, method): functions of C, of the sources that are written by hand, by themselves or by a private method."""
+    found, private = {}, {}
     for file in sorted((LAYER / "src").glob("*.js")):
         owner = name = ""
         for line in file.read_text(encoding="utf-8").split("\n"):
             opened = re.match(r"export class (\w+)", line)
-            method = re.match(r"    (?:static |get |set )?(\w+|\[dispose\])\(.*\{", line)
+            method = re.match(r"    (?:static |get |set )?(#?\w+|\[dispose\])\(.*\{", line)
             outside = re.match(r"export (?:function|const) (\w+)", line)
             owner = opened[1] if opened else "" if outside else owner
             name = outside[1] if outside else method[1] if method else name
-            calls = [one for one in re.findall(r"\bx\.(fe_\w+)", line) if one in functions]
+            calls = [
+                one for one in re.findall(r"\bx\.(fe_\w+)", line) if one in functions and not one.endswith("_init")
+            ]
+            for called in re.findall(r"\bthis\.(#\w+)\(", line):
+                private.setdefault((owner, name), set()).add((owner, called))
             if calls:
                 listed = found.setdefault((owner, name), [])
                 listed += [one for one in dict.fromkeys(calls) if one not in listed]
+    for method, helpers in private.items():
+        behind = [one for helper in sorted(helpers) for one in found.get(helper, [])]
+        found[method] = list(dict.fromkeys(found.get(method, []) + behind))
     return found
 
 

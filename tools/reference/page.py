@@ -260,7 +260,8 @@ class Writer:
 
     def closing(self, member, told):
         """What goes wrong, and the functions of C."""
-        failures = [self.words(part) for _, _, returned in told for part in errors_of(returned)]
+        returned = "; ".join(back.replace("fe_last_error", "the message") for _, _, back in told)
+        failures = [self.words(part) for part in errors_of(returned)]
         if failures:
             self.lines += [*wrapped("Errors: " + safe("; ".join(dict.fromkeys(failures))) + "."), ""]
         if member.functions:

@@ -300,7 +300,7 @@ def sections_of(reader):
 
 def words_of(header):
     errors = (PACKAGE / "errors.py").read_text(encoding="utf-8")
-    classes = dict(re.findall(r'class (\w+)\(.*?\):\n    """[^"]*?\((FE_ERROR_\w+)\)', errors, re.S))
+    classes = dict(re.findall(r'class (\w+)\([^)]*\):\n    """[^"]*\((FE_ERROR_\w+)\)', errors))
     by_code = {code: name for name, code in classes.items()}
     texts = {
         "fe_body_type",
