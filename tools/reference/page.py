@@ -38,7 +38,7 @@ class Section:
 
 # What is a name of C, or of a field, in prose
 NAMES = re.compile(
-    r"\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
+    r"\bfe_\w+ in feather\.h|fe_<type>\w+|\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
 )
 
 # ---- text -----------------------------------------------------------------------------------------------------------
@@ -120,8 +120,14 @@ class Words:
             if i % 2:
                 parts[i] = "`" + self.in_code(part[1:-1]) + "`"
             else:
-                parts[i] = NAMES.sub(lambda m: f"`{self.in_code(m[0])}`", part)
+                parts[i] = NAMES.sub(self.named, part)
         return "".join(parts)
+
+    def named(self, found):
+        name, behind = found[0], " in feather.h"
+        if name.endswith(behind):  # it is C's that is meant
+            return f"`{name[: -len(behind)]}`{behind}"
+        return f"`{self.in_code(name)}`"
 
     def in_code(self, text):
         indexed = re.fullmatch(r"(\w+)\[(FE_\w+)\](.*)", text)
