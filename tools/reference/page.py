@@ -38,7 +38,7 @@ class Section:
 
 # What is a name of C, or of a field, in prose
 NAMES = re.compile(
-    r"\bfe_\w+ in feather\.h|fe_<type>\w+|\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
+    r"\bfe_\w+ in feather\.h|fe_<type>\w+|\bFE_\w+_\*|\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
 )
 
 # ---- text -----------------------------------------------------------------------------------------------------------
@@ -144,7 +144,8 @@ class Words:
 def split_comment(text):
     """A comment of the header: (prose, {parameter: sentence}, what it returns)."""
     parts = re.split(r"@(param|return)\b", text)
-    prose, parameters, returned = parts[0].strip(), {}, ""
+    # how a struct's size is stated concerns C alone
+    prose, parameters, returned = re.sub(r"[^.]*\bstruct_size\b[^.]*\.\s*", " ", parts[0]).strip(), {}, ""
     for kind, rest in zip(parts[1::2], parts[2::2]):
         if kind == "return":
             returned = " ".join(rest.split())
@@ -156,8 +157,8 @@ def split_comment(text):
 
 
 def errors_of(returned):
-    """The parts of a @return that name errors."""
-    parts = [part.strip() for part in returned.split(";")]
+    """The parts of a @return that name errors, but for those about pointers of C."""
+    parts = [part.strip() for part in returned.split(";") if "out_" not in part]
     return [part for part in parts if re.match(r"(the errors of )?(FE_ERROR|for assets)|the errors of", part)]
 
 
