@@ -25,7 +25,7 @@ $(CSHARP)/feather_csharp.c: $(CSHARP_INTERFACE) include/feather.h bindings/cshar
 $(CSHARP_NATIVE): $(CSHARP)/feather_csharp.c $(STATIC)
 	@mkdir -p $(@D)
 	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
-$(CSHARP)/source/Records.cs: bindings/csharp/records.py include/feather.h
+$(CSHARP)/source/Records.cs: bindings/csharp/records.py tools/header.py include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(PYTHON) $< include/feather.h $@
 $(CSHARP)/source/%.cs: bindings/csharp/FeatherPhysics/%.cs

@@ -141,6 +141,20 @@ TOLD = {
     "State": "What a world was, for any world of the same store.",
     "Batch": "Many worlds, made from one, that step together.",
 }
+# What the module's functions return
+BACK = {
+    "newWorld": "feather.World",
+    "newPool": "feather.Pool",
+    "newStore": "feather.Store",
+    "newPlayer": "feather.Player",
+    "loadWorld": "feather.World",
+    "checkSnapshot": "table",
+    "getSnapshotAssets": "string[]",
+    "compareSnapshots": "table|nil",
+}
+# Parameters, by what the layer calls them
+NUMBER_NAMES = set("dt seconds mass speed distance fraction hertz".split())
+INTEGER_NAMES = set("count steps step frame number layer mask group row column rows columns index".split())
 # What objects.life makes; user data is Lua's own, the library's is the tag
 LIFE = (
     ("isDestroyed", [], "True once it is destroyed, or its world."),
@@ -223,43 +237,75 @@ def life_calls(owner, method):
 
 
 def read_methods():
-    """class -> method -> (parameters, sentence, the function of C that is called as it is or None, all that it calls)"""
-    methods = {name: {} for name in CLASSES + ["feather"]}
-    prefix = {name: f"fe_{name.lower()}" for name in CLASSES}
+    """class -> method -> (parameters, sentence, its namesake of C or None, all functions of C that it calls)"""
+    methods = {name: {} for name in CLASSES}
     for file in sorted(LAYER.glob("*.lua")):
         if file.name.startswith("ffi") or file.name in ("objects.lua", "options.lua"):
             continue
         text = file.read_text()
-        for kind, name, names in re.findall(r"objects\.(accessors|switches)\((\w+), \"\w+\", \{(.*?)\}\)", text, re.S):
-            for method, of in re.findall(r"(\w+) = \"(\w+)\"", names):
-                get, put = f"{prefix[name]}_get_{of}", f"{prefix[name]}_set_{of}"
-                if kind == "switches":
-                    methods[name]["is" + method] = ([], "", get, [get])
-                    methods[name]["set" + method] = (["value"], "", put, [put])
-                    continue
-                if get in FUNCTIONS:
-                    methods[name]["get" + method] = ([], "", get, [get])
-                if put in FUNCTIONS:
-                    methods[name]["set" + method] = (None, "", put, [put])
+        read_accessors(text, methods)
         for name in re.findall(r"objects\.life\((\w+)", text):
             for method, names, told in LIFE:
                 methods[name].setdefault(method, (names, told, None, life_calls(name, method)))
-        lines = text.split("\n")
-        for i, line in enumerate(lines):
-            found = re.match(r"function (\w+):(\w+)\(([^)]*)\)", line)
-            if not found or found[1] not in methods:
-                continue
-            of = f"{prefix[found[1]]}_{snake(found[2])}"
-            names = [name.strip() for name in found[3].split(",") if name.strip()]
-            called = sorted(core_calls(lines, i), key=lambda one: one != of)  # its namesake speaks first
-            made = (names, comment_before(lines, i), of if of in FUNCTIONS else None, called)
-            methods[found[1]][found[2]] = made
-        for name, kind, places in re.findall(r"World\.new(\w+)Joint = constructor\(\"(\w+)\", \"([\w ]+)\"", text):
-            extra = {**ENDS, **{place: PLACES.get(place, "number") for place in places.split()}}
-            OPTIONS[f"{name}JointOptions"] = (f"fe_{kind}_joint_def", extra)
-            given = [("given", f"feather.{name}JointOptions")]
-            ALSO.setdefault("World", {})[f"new{name}Joint"] = (given, ["feather.Joint"], "")
+        read_written(text.split("\n"), methods)
+        read_constructors(text)
     return methods
+
+
+def read_accessors(text, methods):
+    """Getters and setters that objects.lua makes of the names of functions."""
+    for kind, name, names in re.findall(r"objects\.(accessors|switches)\((\w+), \"\w+\", \{(.*?)\}\)", text, re.S):
+        for method, of in re.findall(r"(\w+) = \"(\w+)\"", names):
+            get, put = f"fe_{name.lower()}_get_{of}", f"fe_{name.lower()}_set_{of}"
+            if kind == "switches":
+                methods[name]["is" + method] = ([], "", get, [get])
+                methods[name]["set" + method] = (["value"], "", put, [put])
+                continue
+            if get in FUNCTIONS:
+                methods[name]["get" + method] = ([], "", get, [get])
+            if put in FUNCTIONS:
+                methods[name]["set" + method] = (None, "", put, [put])
+
+
+def read_written(lines, methods):
+    """Methods that are written out."""
+    for i, line in enumerate(lines):
+        found = re.match(r"function (\w+):(\w+)\(([^)]*)\)", line)
+        if not found or found[1] not in methods:
+            continue
+        of = f"fe_{found[1].lower()}_{snake(found[2])}"
+        names = [name.strip() for name in found[3].split(",") if name.strip()]
+        called = sorted(core_calls(lines, i), key=lambda one: one != of)  # its namesake speaks first
+        made = (names, comment_before(lines, i), of if of in FUNCTIONS else None, called)
+        methods[found[1]][found[2]] = made
+
+
+def read_constructors(text):
+    """Those of joints, and the tables that they take."""
+    for name, kind, places in re.findall(r"World\.new(\w+)Joint = constructor\(\"(\w+)\", \"([\w ]+)\"", text):
+        extra = {**ENDS, **{place: PLACES.get(place, "number") for place in places.split()}}
+        OPTIONS[f"{name}JointOptions"] = (f"fe_{kind}_joint_def", extra)
+        given = [("given", f"feather.{name}JointOptions")]
+        ALSO.setdefault("World", {})[f"new{name}Joint"] = (given, ["feather.Joint"], "")
+
+
+def read_module():
+    """name -> (parameters, what comes back, sentence, functions of C) of the functions that the module has."""
+    texts, made = [f.read_text(encoding="utf-8") for f in sorted(LAYER.glob("*.lua"))], {}
+    for name, local, function in re.findall(r"^    (\w+) = (\w+)\.(\w+),$", (LAYER / "init.lua").read_text(), re.M):
+        for lines in (text.split("\n") for text in texts):
+            for i, line in enumerate(lines):
+                found = re.match(rf"function {local}\.{function}\((.*?)\)", line)
+                if found:
+                    given = [module_parameter(name, one.strip()) for one in found[1].split(",") if one.strip()]
+                    made[name] = (given, [BACK[name]], comment_before(lines, i), core_calls(lines, i))
+    return made
+
+
+def module_parameter(function, name):
+    if name == "given":
+        return ("given?", "feather.WorldOptions" if "World" in function else "table")
+    return (name, {"bytes": "string", "workers": "integer"}.get(name, "string" if "Snapshots" in function else "any"))
 
 
 def c_values(kind, name):
@@ -282,56 +328,28 @@ def parameters_of(owner, method, names, of):
             if one.kind not in ("fe_world", "fe_" + owner.lower(), "fe_store") and not one.name.startswith("out_"):
                 result += c_values(one.kind, camel(one.name))
         return result
-    found = []
-    for name in names:
-        if name == "given":
-            options = GIVEN.get(method) or ("ShapeOptions" if owner == "Body" and method[3:] in SHAPES else None)
-            kind = f"feather.{options}" if options else "table"
-            found.append(("given?", kind))
-        elif name == "...":
-            found.append(("...", "any"))
-        elif re.match(r"^([xyzw]|[dpn][xyz]|\w*_[xyz]|q[xyzw])$", name) or name in (
-            "dt",
-            "seconds",
-            "mass",
-            "speed",
-            "distance",
-            "fraction",
-            "hertz",
-        ):
-            found.append((name, "number"))
-        elif name in (
-            "count",
-            "steps",
-            "step",
-            "frame",
-            "number",
-            "layer",
-            "mask",
-            "group",
-            "row",
-            "column",
-            "rows",
-            "columns",
-            "index",
-        ):
-            optional = (
-                "?"
-                if method in ("step", "setFilter") and name in ("steps", "group", "mask") and owner != "Shape"
-                else ""
-            )
-            found.append((name + optional, "any" if owner == "Batch" and name == "mask" else "integer"))
-        elif name in ("bytes", "path", "text", "name"):
-            found.append((name, "string"))
-        elif name in ("bodies", "joints"):
-            found.append((name, f"feather.{name[:-3].capitalize() + 'y' if name == 'bodies' else 'Joint'}[]"))
-        elif name in ("bodyA", "bodyB", "body", "a", "b") and owner == "World":
-            found.append((name, "feather.Body|nil"))
-        elif name in ("state", "hull", "mesh", "compound", "heightfield") and name.capitalize() in CLASSES:
-            found.append((name, f"feather.{name.capitalize()}"))
-        else:
-            found.append((name, "any"))
-    return found
+    return [parameter_of(owner, method, name) for name in names]
+
+
+def parameter_of(owner, method, name):
+    """(name, type), by what the layer calls it"""
+    if name == "given":
+        options = GIVEN.get(method) or ("ShapeOptions" if owner == "Body" and method[3:] in SHAPES else None)
+        return ("given?", f"feather.{options}" if options else "table")
+    if re.match(r"^([xyzw]|[dpn][xyz]|\w*_[xyz]|q[xyzw])$", name) or name in NUMBER_NAMES:
+        return (name, "number")
+    if name in INTEGER_NAMES:
+        may_lack = method in ("step", "setFilter") and name in ("steps", "group", "mask") and owner != "Shape"
+        return (name + "?" * may_lack, "any" if owner == "Batch" and name == "mask" else "integer")
+    if name in ("bytes", "path", "text", "name"):
+        return (name, "string")
+    if name in ("bodies", "joints"):
+        return (name, f"feather.{'Body' if name == 'bodies' else 'Joint'}[]")
+    if name in ("bodyA", "bodyB", "body", "a", "b") and owner == "World":
+        return (name, "feather.Body|nil")
+    if name in ("state", "hull", "mesh", "compound", "heightfield"):
+        return (name, f"feather.{name.capitalize()}")
+    return (name, "any")
 
 
 def returns_of(owner, method, of):
@@ -396,6 +414,29 @@ def fields_of(struct, extra):
                 yield one
 
 
+def options_text(name, struct, extra):
+    lines = [f"---@class feather.{name}"] + [f"---@field {key}? {kind}" for key, kind in extra.items()]
+    for one in fields_of(struct, extra):
+        kind = field_type(one.name, one.kind, one.is_pointer or one.count > 0, one.told)
+        head, short = f"---@field {camel(one.name)}? {kind}", sentence(one.told)
+        lines.append(f"{head} {short}" if short and len(head) + len(short) < 118 else head)
+    return lines + [""]
+
+
+def said(told, called):
+    """The layer's sentence, else the first that C has."""
+    return told or next(filter(None, (sentence(FUNCTIONS[one].told) for one in called)), "")
+
+
+def class_text(owner, methods):
+    made = dict(ALSO.get(owner, {}))
+    for method, (names, told, of, called) in methods.items():
+        parameters, back = parameters_of(owner, method, names, of), returns_of(owner, method, of)
+        made[method] = (parameters, back, said(told, called))
+    lines = [f"---{TOLD[owner]}", f"---@class feather.{owner}", f"local {owner} = {{}}", ""]
+    return lines + [line for method in sorted(made) for line in method_text(owner, method, *made[method])]
+
+
 def text():
     methods = read_methods()
     lines = [
@@ -403,37 +444,11 @@ def text():
         "-- Made from bindings/lua/feather and include/feather.h by tools/annotate. No program loads it.",
         "",
     ]
-    for name, (struct, extra) in OPTIONS.items():
-        lines.append(f"---@class feather.{name}")
-        for key, kind in extra.items():
-            lines.append(f"---@field {key}? {kind}")
-        for one in fields_of(struct, extra):
-            field, kind, told = one.name, one.kind, one.told
-            head = f"---@field {camel(field)}? {field_type(field, kind, one.is_pointer or one.count > 0, told)}"
-            short = sentence(told)
-            lines.append(f"{head} {short}" if short and len(head) + len(short) < 118 else head)
-        lines.append("")
+    for name, of in OPTIONS.items():
+        lines += options_text(name, *of)
     for owner in CLASSES:
-        lines += [f"---{TOLD[owner]}", f"---@class feather.{owner}", f"local {owner} = {{}}", ""]
-        made = dict(ALSO.get(owner, {}))
-        for method, (names, told, of, called) in methods[owner].items():
-            text = told or next(filter(None, (sentence(FUNCTIONS[one].told) for one in called)), "")
-            made[method] = (parameters_of(owner, method, names, of), returns_of(owner, method, of), text)
-        for method in sorted(made):
-            lines += method_text(owner, method, *made[method])
+        lines += class_text(owner, methods[owner])
     lines += ["---@class feather", "---@field VERSION string", "local feather = {}", ""]
-    module = re.findall(r"^    (\w+) = ", (LAYER / "init.lua").read_text(), re.M)
-    for name in (name for name in module if name not in ("_core", "VERSION")):
-        given = {"newWorld": [("given?", "feather.WorldOptions")], "newPool": [("workers", "integer")]}.get(
-            name, [("...", "any")]
-        )
-        back = {
-            "newWorld": "feather.World",
-            "newPool": "feather.Pool",
-            "newStore": "feather.Store",
-            "newPlayer": "feather.Player",
-            "loadWorld": "feather.World",
-        }
-        lines += [f"---@param {n} {k}" for n, k in given] + [f"---@return {back.get(name, 'any')}"]
-        lines += [f"function feather.{name}({', '.join(n.rstrip('?') for n, _ in given)}) end", ""]
+    for name, (parameters, back, told, called) in read_module().items():
+        lines += method_text("feather", name, parameters, back, said(told, called))
     return "\n".join(lines + ["return feather", ""])

@@ -1,4 +1,4 @@
-"""Statements of a language with braces: C# and the types of JavaScript. It knows comments, strings and pairs; no more."""
+"""Statements of a language with braces: C#, the types of JavaScript. It knows comments, strings and pairs; no more."""
 
 import re
 

@@ -21,8 +21,8 @@ MODIFIERS = (
 # What every value has: named in a line of their own
 COMMON = {"Equals", "GetHashCode", "ToString", "operator ==", "operator !="}
 OPENING = [
-    "Every public name of `FeatherPhysics`, with its signature and its sentences. [docs/csharp.md](../csharp.md) is the "
-    "guide; begin there. Units are metres, kilograms, seconds and radians. The package's XML file has the same "
+    "Every public name of `FeatherPhysics`, with its signature and its sentences. [docs/csharp.md](../csharp.md) is "
+    "the guide; begin there. Units are metres, kilograms, seconds and radians. The package's XML file has the same "
     "sentences for your editor.",
     '"In C" names the functions of [include/feather.h](../../include/feather.h) that a member calls. A failed call '
     'throws a [FeatherException](#featherexception) with the library\'s sentence, and has changed nothing. "Errors" '

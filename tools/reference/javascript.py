@@ -1,5 +1,5 @@
-"""The page of JavaScript: the types that feather-physics ships. Those of bindings/js/src are written by hand; those that
-bindings/js/generate.mjs makes of the header are kept in bindings/js/library/api.d.ts, so that the page needs no node.
+"""The page of JavaScript: the types that feather-physics ships. Those of bindings/js/src are written by hand; those
+that bindings/js/generate.mjs makes of the header are kept in bindings/js/library/api.d.ts: the page needs no node.
 """
 
 import re
@@ -135,7 +135,7 @@ class Reader:
 
 
 def hand_calls(functions):
-    """(class, method): functions of C, of the sources that are written by hand, by themselves or by a private method."""
+    """(class, method): functions of C that the sources written by hand call, also by a private method."""
     found, private = {}, {}
     for file in sorted((LAYER / "src").glob("*.js")):
         owner = name = ""

@@ -1,9 +1,7 @@
 """The page of Lua: classes, methods and tables of options, as annotations.py reads them."""
 
-import re
-
 from . import annotations
-from .annotations import ALSO, CLASSES, LAYER, OPTIONS, camel, comment_before, core_calls, guessed, snake
+from .annotations import ALSO, CLASSES, OPTIONS, camel, guessed, snake
 from .page import Group, Member, Section, Words, Writer
 
 OPENING = [
@@ -49,36 +47,9 @@ def class_group(owner, methods):
 
 
 def module_group():
-    """The functions of the module: what init.lua returns, and where it is written."""
-    texts = [f.read_text(encoding="utf-8") for f in sorted(LAYER.glob("*.lua"))]
     made = [Member("VERSION", "feather.VERSION", "The library's version, as text.")]
-    for name, local, function in re.findall(r"^    (\w+) = (\w+)\.(\w+),$", (LAYER / "init.lua").read_text(), re.M):
-        for text in texts:
-            lines = text.split("\n")
-            found = [i for i, line in enumerate(lines) if re.match(rf"function {local}\.{function}\(", line)]
-            if found:
-                inside = re.search(r"\((.*?)\)", lines[found[0]])[1]
-                parameters = [annotations_of(name, one.strip()) for one in inside.split(",") if one.strip()]
-                told = comment_before(lines, found[0])
-                made.append(member("feather", name, parameters, BACK.get(name, []), told, core_calls(lines, found[0])))
+    made += [member("feather", name, *of) for name, of in annotations.read_module().items()]
     return Group("feather", 'What `require("feather")` returns.', "", made)
-
-
-BACK = {
-    "newWorld": ["feather.World"],
-    "newPool": ["feather.Pool"],
-    "newStore": ["feather.Store"],
-    "newPlayer": ["feather.Player"],
-    "loadWorld": ["feather.World"],
-    "checkSnapshot": ["table"],
-    "getSnapshotAssets": ["string[]"],
-    "compareSnapshots": ["table|nil"],
-}
-
-
-def annotations_of(function, name):
-    kind = "feather.WorldOptions" if name == "given" and "World" in function else "string" if name == "bytes" else "any"
-    return (name + ("?" if name == "given" else ""), kind)
 
 
 def options_group(name, struct, extra):

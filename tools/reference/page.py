@@ -38,7 +38,8 @@ class Section:
 
 # What is a name of C, or of a field, in prose
 NAMES = re.compile(
-    r"\bfe_\w+ in feather\.h|fe_<type>\w+|\bFE_\w+_\*|\b\w+\[FE_\w+\](?:\.\w+)?|\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
+    r"\bfe_\w+ in feather\.h|fe_<type>\w+|\bFE_\w+_\*|\b\w+\[FE_\w+\](?:\.\w+)?|"
+    r"\b(?:fe_|FE_)\w*\w(?:\.\w+)?|\bNULL\b|(?<!\w)[a-z]+(?:_[a-z0-9]+)+\b(?:\(\))?"
 )
 
 # ---- text -----------------------------------------------------------------------------------------------------------

@@ -1781,36 +1781,49 @@ function Batch:write(name, items, numbers, mask) end
 ---@field VERSION string
 local feather = {}
 
+---Worlds with different numbers refuse each other's handles.
 ---@param given? feather.WorldOptions
 ---@return feather.World
 function feather.newWorld(given) end
 
+---Starts a pool of workers that worlds can share (fe_world_def.pool).
 ---@param workers integer
 ---@return feather.Pool
 function feather.newPool(workers) end
 
----@param ... any
+---{ number = 0 }, or nothing: its number is part of its assets' handles, 0 takes the next free one.
+---@param given? table
 ---@return feather.Store
-function feather.newStore(...) end
+function feather.newStore(given) end
 
----@param ... any
+---{ file = "run.feather" } or { bytes = a string }, or feed() it; workers, simd, pool; store: where assets are found
+---that the recording does not hold.
+---@param given? table
 ---@return feather.Player
-function feather.newPlayer(...) end
+function feather.newPlayer(given) end
 
----@param ... any
+---A new world, made of a string and of newWorld's table, in which workers, pool, store, simd and userData count, and
+---with newNumber = true the number; all else is the saved world's. Behind it "foreign", as of restore.
+---@param bytes string
+---@param given? feather.WorldOptions
 ---@return feather.World
-function feather.loadWorld(...) end
+function feather.loadWorld(bytes, given) end
 
----@param ... any
----@return any
-function feather.checkSnapshot(...) end
+---What a string is, after every check of a restore but for assets that are not in it; or an error.
+---@param bytes string
+---@return table
+function feather.checkSnapshot(bytes) end
 
----@param ... any
----@return any
-function feather.getSnapshotAssets(...) end
+---The keys of the assets that it needs, as asset:getKey() has them.
+---@param bytes string
+---@return string[]
+function feather.getSnapshotAssets(bytes) end
 
----@param ... any
----@return any
-function feather.compareSnapshots(...) end
+---Where two worlds first differ, of their strings: nil, or { kind, field, a, b, handle, other, index, element }, the
+---values as texts. Elements and entries of lists count from 1.
+---@param a string
+---@param b string
+---@return table|nil
+function feather.compareSnapshots(a, b) end
 
 return feather
