@@ -77,6 +77,10 @@ missing_for_wasm() {
     test -e /usr/include/wasm32-wasi/stdio.h || echo wasi-libc
     test -e "$(clang --target=wasm32-wasi --print-libgcc-file-name 2> /dev/null)" ||
         clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev-wasm32" }'
+    # for the package's size; without them it is built by what is above
+    if test -n "${essential:-}"; then return; fi
+    test -e "$(clang-19 --target=wasm32-wasi --print-libgcc-file-name 2> /dev/null)" || echo clang-19 lld-19 libclang-rt-19-dev-wasm32
+    has wasm-opt || echo binaryen
 }
 
 missing_for_check() {
