@@ -462,7 +462,11 @@ export class World extends api.WorldCalls {
         ok(x.fe_world_sweep_many(this._w(), g, from, $path[0], n, f, 0, at, HIT));
         return this.#hits(at, n);
     }
-    #hits(at, n) { return Array.from({ length: n }, (_, k) => (u64[(at + HIT * k) >> 3] ? api.readHit(at + HIT * k) : null)); }
+    #hits(at, n) {
+        const hits = new Array(n);
+        for (let k = 0; k < n; ++k) hits[k] = id(at + HIT * k) ? api.readHit(at + HIT * k) : null;
+        return hits;
+    }
 
     // ---- snapshots ----
     save(options, into) {

@@ -143,10 +143,8 @@ export function handle(v, name) {
     return Number.isSafeInteger(v) && v >= 0 ? BigInt(v) : wrong(name, 'a handle or what has one', v);
 }
 export const id = (at) => u32[at >> 2] + u32[(at >> 2) + 1] * 4294967296;
-export function wide(at) {
-    const v = u64[at >> 3];
-    return v <= 9007199254740991n ? Number(v) : v;
-}
+// A BigInt is an object, and made only for what no number holds, from 2^53
+export const wide = (at) => (u32[(at >> 2) + 1] < 2 ** 21 ? id(at) : u64[at >> 3]);
 export function word(words, v, name) {
     const n = words[v];
     if (n !== undefined && typeof v === 'string') return n;
