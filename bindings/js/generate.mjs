@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// Makes the calls of the JavaScript layer from the public header: api.js, its types api.d.ts, and the list of functions
-// that the module exports. What the layer wraps by hand is named in HAND, what it leaves out in LEFT_OUT, with a reason.
-//   generate.mjs header folder exports | generate.mjs header --missing | generate.mjs header --layout | generate.mjs header --types
+// Makes the calls of the JavaScript layer from the public header: api.js, its types api.d.ts, and exports, the functions
+// that the module gives. What the layer wraps by hand is named in HAND, what it leaves out in LEFT_OUT, with a reason.
+//   generate.mjs header folder | generate.mjs header --missing | generate.mjs header --layout | generate.mjs header --types
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const header = readFileSync(process.argv[2], 'utf8').split('// ---- sugar')[0];
@@ -477,5 +477,5 @@ else {
     writeFileSync(`${folder}/api.js`, js);
     writeFileSync(`${folder}/api.d.ts`, ts);
     const exported = [...functions.map((f) => f.name).filter((n) => !LEFT_OUT[n]), 'fe_pool_create', 'malloc', 'free'];
-    writeFileSync(process.argv[4], exported.map((n) => `-Wl,--export=${n}\n`).join(''));
+    writeFileSync(`${folder}/exports`, exported.map((n) => `-Wl,--export=${n}\n`).join(''));
 }

@@ -7,7 +7,7 @@ const bytes = readFileSync(process.argv[2]), deflated = deflateSync(bytes, { lev
 console.log(`// Made from feather.wasm by bindings/js/inline.mjs
 import Start from './module.js';
 import { inflate } from './inflate.js';
-export * from './names.js';
+export * from './module.js';
 const text = '${deflated.toString('base64')}';
 const SIZE = ${bytes.length}, HEADER = 2; // bytes; of zlib
 function deflated() {

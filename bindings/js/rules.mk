@@ -28,22 +28,25 @@ WASM_LINK += -Wl,--export=__wasm_call_ctors
 WASM_SHARED := -matomics -mbulk-memory -ftls-model=local-exec
 WASM_SHARED_LINK := -Wl,--import-memory,--shared-memory,--initial-memory=4194304,--max-memory=1073741824,--no-check-features \
     -Wl,--export=__stack_pointer,--export=__wasm_init_tls
-JS_SOURCES := $(wildcard bindings/js/src/*)
+# One script of them all, as node takes half a millisecond for each that it loads: one after the other, without what they
+# import from those before. host.js is a worker's too.
+JS_CORE := $(patsubst %,bindings/js/src/%.js,host runtime) $(BUILD)/wasm/api.js $(patsubst %,bindings/js/src/%.js,recorder batch hand player)
+JS_SOURCES := bindings/js/src/host.js $(filter-out $(JS_CORE),$(wildcard bindings/js/src/*))
 
 .PHONY: wasm js test-js FORCE
 .PRECIOUS: $(BUILD)/wasm/%/libfeather.a
 wasm: $(BUILD)/wasm/feather.wasm $(BUILD)/wasm/feather-threads.wasm
-js: $(patsubst bindings/js/src/%,$(BUILD)/js/%,$(JS_SOURCES)) $(addprefix $(BUILD)/js/,api.js feather.wasm feather-threads.wasm inline.js package.json README.md LICENSE)
+js: $(patsubst bindings/js/src/%,$(BUILD)/js/%,$(JS_SOURCES)) $(addprefix $(BUILD)/js/,core.js api.d.ts feather.wasm feather-threads.wasm inline.js package.json README.md LICENSE)
 
 $(BUILD)/wasm/shared/libfeather.a: WASM_FEATURES += $(WASM_SHARED)
 $(BUILD)/wasm/%/libfeather.a: FORCE
 	@+$(MAKE) --no-print-directory BUILD=$(@D) SIMD_SETS=wasm CC='$(WASM_CC) $(WASM_FEATURES)' AR=$(WASM_AR) OPT='$(WASM_OPT)' \
 	    SIMD_OPT='$(WASM_SIMD_OPT)' COLD_OPT='$(WASM_COLD_OPT)' \
 	    CFLAGS= LDFLAGS= BENCH_PEERS= $@
-$(BUILD)/js/api.js: bindings/js/generate.mjs include/feather.h
-	@mkdir -p $(BUILD)/js $(BUILD)/wasm
-	$(RUN)$(NODE) $< include/feather.h $(BUILD)/js $(BUILD)/wasm/exports
-$(BUILD)/js/api.d.ts $(BUILD)/wasm/exports: $(BUILD)/js/api.js
+$(BUILD)/wasm/api.js: bindings/js/generate.mjs include/feather.h
+	@mkdir -p $(@D)
+	$(RUN)$(NODE) $< include/feather.h $(@D)
+$(BUILD)/wasm/api.d.ts $(BUILD)/wasm/exports: $(BUILD)/wasm/api.js
 	@: # made with it; without a recipe make would not look again whether they are new
 $(BUILD)/wasm/libc.o: bindings/js/libc.c
 	@mkdir -p $(@D)
@@ -62,9 +65,12 @@ $(BUILD)/wasm/feather.wasm: $(BUILD)/wasm/libc.o $(BUILD)/wasm/library/libfeathe
 $(BUILD)/js/%: bindings/js/src/%
 	@mkdir -p $(@D)
 	@cp $< $@
-$(BUILD)/js/%.wasm: $(BUILD)/wasm/%.wasm
+$(BUILD)/js/%: $(BUILD)/wasm/%
 	@mkdir -p $(@D)
 	@cp $< $@
+$(BUILD)/js/core.js: $(JS_CORE)
+	@mkdir -p $(@D)
+	@sed '/^import .* from /d' $(JS_CORE) > $@
 $(BUILD)/js/inline.js: bindings/js/inline.mjs $(BUILD)/wasm/feather.wasm
 	@mkdir -p $(@D)
 	$(RUN)$(NODE) $< $(BUILD)/wasm/feather.wasm > $@

@@ -13,7 +13,7 @@ const script = async (entry, format) => {
     const made = await build({
         entryPoints: [source + entry], bundle: true, minify: true, format, target: 'es2022', write: false, legalComments: 'none', charset: 'utf8',
         nodePaths: [`${tools}/node_modules`],
-        alias: { 'feather-physics/module': `${feather}/module.js`, 'feather-physics/runtime.js': `${feather}/runtime.js` },
+        alias: { 'feather-physics/module': `${feather}/module.js`, 'feather-physics/core.js': `${feather}/core.js` },
     });
     return made.outputFiles[0].text.replace(/<\/script/g, '<\\/script');
 };

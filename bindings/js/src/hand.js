@@ -2,8 +2,8 @@
 import { x, pool, f32, f64, i32, u32, u64, scratch, ok, reset, temp, allocate, num, int, handle, id, nameOf, dvec3, init, put, make, maybe, listIn, listOut, bytesIn, bytesOut, wrong, long, dead, free, dispose, FeatherError } from './runtime.js';
 import { Recorder } from './recorder.js';
 import { Batch, State } from './batch.js';
-import * as api from './api.js';
-const { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $batch_def, $difference } = api;
+import { AT, AssetCalls, BodyCalls, CompoundCalls, GeometryType, HIT_BYTES, HeightfieldCalls, HullCalls, INSTANCE_BYTES, JointCalls, JointType, MeshCalls, ShapeCalls, StoreCalls, VERTEX_BYTES, WorldCalls, made, readDifference, readHistoryFrame, readHit, readSnapshotInfo, readTransform } from './api.js';
+import { $world_def, $body_def, $shape_def, $geometry, $store_def, $heightfield_def, $hull_def, $mesh_def, $compound_part, $material, $transform, $query_filter, $save_options, $restore_options, $draw_options, $ray, $path, $snapshot_info, $history_def, $recorder_def, $batch_def, $difference } from './api.js';
 
 // Stores that nobody holds any more but a world that nobody holds either, until that one is gone
 const orphans = new Set();
@@ -14,7 +14,6 @@ const endWorld = (p) => {
 export const endOrphans = () => {
     for (const store of orphans) if (x.fe_store_destroy(store) >= 0) orphans.delete(store);
 };
-const wide = (at) => u64[at >> 3];
 
 // ---- memory that a world, or a list of bodies, keeps for its arrays ---------------------------------------------------
 
@@ -43,13 +42,13 @@ const FLOATS_OF_POSE = 7, FLOATS_OF_MOTION = 6;
 
 // ---- stores and assets ----------------------------------------------------------------------------------------------
 
-export class Asset extends api.AssetCalls {
+export class Asset extends AssetCalls {
     constructor(store, id) {
         super();
         this.store = store, this.id = id, this._h = BigInt(id);
     }
     _s() { return this.store._s(); }
-    get type() { return nameOf(api.GeometryType, ok(x.fe_asset_get_type(this._s(), this._h))); }
+    get type() { return nameOf(GeometryType, ok(x.fe_asset_get_type(this._s(), this._h))); }
     get key() { ok(x.fe_asset_get_key(this._s(), this._h, scratch)); return [u64[scratch >> 3], u64[(scratch >> 3) + 1]]; }
     save(into) { reset(); return bytesOut((at, n) => x.fe_asset_save(this._s(), this._h, at, n), into, 'into'); }
 }
@@ -82,10 +81,10 @@ export class Mesh extends Asset {
     }
 }
 export class Compound extends Asset {}
-for (const [to, from] of [[Hull, api.HullCalls], [Heightfield, api.HeightfieldCalls], [Mesh, api.MeshCalls], [Compound, api.CompoundCalls]]) mixin(to, from);
+for (const [to, from] of [[Hull, HullCalls], [Heightfield, HeightfieldCalls], [Mesh, MeshCalls], [Compound, CompoundCalls]]) mixin(to, from);
 const KINDS = { hull: Hull, heightfield: Heightfield, mesh: Mesh, compound: Compound };
 
-export class Store extends api.StoreCalls {
+export class Store extends StoreCalls {
     constructor(options, world) {
         super();
         this.world = world;
@@ -143,7 +142,7 @@ export class Store extends api.StoreCalls {
     }
     // The object of a handle
     asset(handleOf) {
-        const n = handle(handleOf, 'handle'), type = nameOf(api.GeometryType, ok(x.fe_asset_get_type(this._s(), n)));
+        const n = handle(handleOf, 'handle'), type = nameOf(GeometryType, ok(x.fe_asset_get_type(this._s(), n)));
         return new KINDS[type](this, Number(n));
     }
 }
@@ -157,7 +156,7 @@ const part = (Calls) => class extends Calls {
     }
     _w(changes) { return this.world._w(changes); }
 };
-export class Body extends part(api.BodyCalls) {
+export class Body extends part(BodyCalls) {
     get position() { ok(x.fe_body_get_transform(this._w(), this._h, scratch)); return { x: f64[scratch >> 3], y: f64[(scratch >> 3) + 1], z: f64[(scratch >> 3) + 2] }; }
     set position(position) { this._move(position, undefined); }
     get rotation() {
@@ -187,11 +186,11 @@ export class Body extends part(api.BodyCalls) {
     addCone(halfHeight, radius, options) { return this.createShape({ type: 'cone', halfHeight, radius }, options); }
     addPlane(normal, distance, options) { return this.createShape({ type: 'plane', normal, distance }, options); }
 }
-export class Shape extends part(api.ShapeCalls) {}
-export class Joint extends part(api.JointCalls) {
-    get type() { ok(x.fe_joint_get_type(this._w(), this._h, scratch)); return nameOf(api.JointType, i32[scratch >> 2]); }
+export class Shape extends part(ShapeCalls) {}
+export class Joint extends part(JointCalls) {
+    get type() { ok(x.fe_joint_get_type(this._w(), this._h, scratch)); return nameOf(JointType, i32[scratch >> 2]); }
 }
-api.made.joint = (world, result) => (ok(result), new Joint(world, id(scratch)));
+made.joint = (world, result) => (ok(result), new Joint(world, id(scratch)));
 
 // ---- many bodies at once --------------------------------------------------------------------------------------------
 // Their handles lie in the module's memory; poses and motions are views of it, good until the next call of the list.
@@ -237,7 +236,7 @@ export class Bodies {
         reset();
         const at = temp(40 * this.count);
         ok(x.fe_world_get_transforms(this.world._w(), this.#handles.at, at, 0, this.count));
-        return Array.from({ length: this.count }, (_, k) => api.readTransform(at + 40 * k));
+        return Array.from({ length: this.count }, (_, k) => readTransform(at + 40 * k));
     }
     setTransforms(transforms) {
         reset();
@@ -257,7 +256,7 @@ export class History {
     }
     keep(frame) { ok(x.fe_history_keep(this.#at(), long(frame, 'frame'))); }
     restore(frame) { ok(x.fe_history_restore(this.#at(), long(frame, 'frame'))); }
-    get frames() { reset(); return listOut(16, api.readHistoryFrame, (a, n) => x.fe_history_get_frames(this.#at(), a, 16, n)); }
+    get frames() { reset(); return listOut(16, readHistoryFrame, (a, n) => x.fe_history_get_frames(this.#at(), a, 16, n)); }
     destroy() {
         ok(x.fe_history_destroy(this.#at()));
         this._p = 0;
@@ -271,8 +270,8 @@ const worldDef = (at, options) => {
     if ((options === undefined || options === null) && !pool) return 0;
     const { store, ...rest } = options ?? {};
     make($world_def, at, rest, 'options');
-    u32[(at + api.AT.pool) >> 2] = pool;
-    if (store !== undefined) u32[(at + api.AT.store) >> 2] = store instanceof Store ? store._s() : wrong('options.store', 'a Store', store);
+    u32[(at + AT.pool) >> 2] = pool;
+    if (store !== undefined) u32[(at + AT.store) >> 2] = store instanceof Store ? store._s() : wrong('options.store', 'a Store', store);
     return at;
 };
 // The snapshot that bytes are the difference to
@@ -286,7 +285,7 @@ const saveOptions = (at, options) => {
     const { base, ...rest } = options;
     if (base !== undefined && base !== null) rest.flags = ['diff', ...(rest.flags === undefined ? [] : [rest.flags].flat())];
     make($save_options, at, rest, 'options');
-    setBase(at, api.AT.saveBase, base);
+    setBase(at, AT.saveBase, base);
     return at;
 };
 const restoreOptions = (at, options) => {
@@ -297,9 +296,9 @@ const restoreOptions = (at, options) => {
     const keys = temp(16 * assets.length), [handles, n] = listIn('h', assets, 'options.assets');
     u64.set(found.flat(), keys >> 3);
     make($restore_options, at, rest, 'options');
-    i32[(at + api.AT.assetCount) >> 2] = n;
-    u32[(at + api.AT.keys) >> 2] = n ? keys : 0, u32[(at + api.AT.assets) >> 2] = n ? handles : 0;
-    setBase(at, api.AT.restoreBase, base);
+    i32[(at + AT.assetCount) >> 2] = n;
+    u32[(at + AT.keys) >> 2] = n ? keys : 0, u32[(at + AT.assets) >> 2] = n ? handles : 0;
+    setBase(at, AT.restoreBase, base);
     return at;
 };
 
@@ -322,9 +321,9 @@ class Moved {
     }
 }
 
-const HIT = api.HIT_BYTES, VERTEX = api.VERTEX_BYTES, INSTANCE = api.INSTANCE_BYTES;
+const HIT = HIT_BYTES, VERTEX = VERTEX_BYTES, INSTANCE = INSTANCE_BYTES;
 
-export class World extends api.WorldCalls {
+export class World extends WorldCalls {
     #areas = { moved: new Area(), poses: new Area(), hits: new Area(), lines: new Area(), triangles: new Area(), points: new Area(), instances: new Area() };
     #views = {};
     #moved = new Moved(this.#areas.moved);
@@ -408,7 +407,7 @@ export class World extends api.WorldCalls {
     createBatch(count, options) {
         reset();
         const def = make($batch_def, scratch + 16, { ...options, worldCount: int(count, 'count') }, 'options');
-        u32[(def + api.AT.batchPool) >> 2] = pool;
+        u32[(def + AT.batchPool) >> 2] = pool;
         ok(x.fe_batch_create(this._w(), def, scratch));
         return new Batch(this, u32[scratch >> 2], count);
     }
@@ -421,7 +420,7 @@ export class World extends api.WorldCalls {
     // 64 bits as 16 hexadecimal digits
     get hash() {
         ok(x.fe_world_hash(this._w(), scratch));
-        return wide(scratch).toString(16).padStart(16, '0');
+        return u64[scratch >> 3].toString(16).padStart(16, '0');
     }
 
     // The bodies that the last step moved: `count`, their `ids`, and 7 floats each in `poses`, position relative to
@@ -464,7 +463,7 @@ export class World extends api.WorldCalls {
     }
     #hits(at, n) {
         const hits = new Array(n);
-        for (let k = 0; k < n; ++k) hits[k] = id(at + HIT * k) ? api.readHit(at + HIT * k) : null;
+        for (let k = 0; k < n; ++k) hits[k] = id(at + HIT * k) ? readHit(at + HIT * k) : null;
         return hits;
     }
 
@@ -503,12 +502,12 @@ export class World extends api.WorldCalls {
 }
 const ZERO = [0, 0, 0];
 
-export const instanceType = (drawn, k) => nameOf(api.GeometryType, drawn.words[k * drawn.stride]);
+export const instanceType = (drawn, k) => nameOf(GeometryType, drawn.words[k * drawn.stride]);
 export function checkSnapshot(bytes) {
     reset();
     const info = init($snapshot_info, scratch);
     ok(x.fe_snapshot_check(...bytesIn(bytes, 'bytes'), info));
-    return api.readSnapshotInfo(info);
+    return readSnapshotInfo(info);
 }
 export function snapshotAssets(bytes) {
     reset();
@@ -519,6 +518,6 @@ export function snapshotAssets(bytes) {
 export function compareSnapshots(a, b) {
     reset();
     const found = init($difference, scratch);
-    return ok(x.fe_snapshot_compare(...bytesIn(a, 'a'), ...bytesIn(b, 'b'), found)) ? api.readDifference(found) : null;
+    return ok(x.fe_snapshot_compare(...bytesIn(a, 'a'), ...bytesIn(b, 'b'), found)) ? readDifference(found) : null;
 }
 export const version = () => { const v = x.fe_version(); return `${v >> 16}.${(v >> 8) & 255}.${v & 255}`; };

@@ -1,6 +1,6 @@
 // feather-physics: loads feather.wasm from beside this file, in browsers, node, Deno, Bun and what bundlers make.
 import Start from './module.js';
-export * from './names.js';
+export * from './module.js';
 
 async function bytes() {
     const url = new URL('./feather.wasm', import.meta.url);

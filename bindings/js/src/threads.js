@@ -1,9 +1,9 @@
 // feather-physics/threads: the module on shared memory, and workers of the host: one pool that all worlds step on. Where
 // a host shares no memory, or starts no workers, the module of one thread: the same calls, the same bits.
 import One from './index.js';
-import { feather } from './names.js';
-import { startShared, usePool } from './runtime.js';
-export * from './names.js';
+import { feather } from './module.js';
+import { startShared, usePool } from './core.js';
+export * from './module.js';
 
 const MOST = 64; // threads of a pool
 const USUAL = 8; // at most, when the number is not given

@@ -2,7 +2,7 @@
 import test from 'node:test';
 import assert from 'node:assert/strict';
 import feather, { file } from './package.mjs';
-const runtime = await import(file('runtime.js'));
+const runtime = await import(file('core.js'));
 const { World, FeatherError } = feather;
 const WORLDS = 7, DT = 1 / 60;
 

@@ -347,7 +347,7 @@ test('assets: materials of meshes, heights, parts, a store that worlds share', (
 });
 
 test('worlds end by using, twice is no harm, and leave no memory behind', async () => {
-    const { x } = await import(file('runtime.js'));
+    const { x } = await import(file('core.js'));
     let pages = 0;
     for (let i = 0; i < 300; ++i) {
         const world = new World();

@@ -216,7 +216,7 @@ test('snapshots tell where they differ', () => {
 });
 
 test('recorders and players leave no memory behind', async () => {
-    const { x } = await import(file('runtime.js'));
+    const { x } = await import(file('core.js'));
     let pages = 0;
     for (let i = 0; i < 60; ++i) {
         const { bytes } = recorded(20, { bufferBytes: 1 << 20 }), player = new Player(bytes);

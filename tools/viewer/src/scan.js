@@ -1,7 +1,7 @@
 // scan.js - a worker that plays the recording by itself, as fast as it can, and tells of each step what the plots show.
 // It has a module of its own. Numbers of a step: those of COLUMNS in series.js, then the pinned ones.
 import Feather, { Player } from 'feather-physics/module';
-import { x, u32, f32, u64, scratch, temp, reset } from 'feather-physics/runtime.js';
+import { x, u32, f32, u64, scratch, temp, reset } from 'feather-physics/core.js';
 import { COLUMNS, readPin } from './series.js';
 
 const BATCH = 60, MS = 40; // steps, ms between two messages at most

@@ -2,7 +2,7 @@
 import { pathToFileURL } from 'node:url';
 
 const folder = `${pathToFileURL(process.env.FEATHER_PACKAGE).href}/`;
-const FILES = { 'feather-physics/module': 'module.js', 'feather-physics/runtime.js': 'runtime.js' };
+const FILES = { 'feather-physics/module': 'module.js', 'feather-physics/core.js': 'core.js' };
 export async function resolve(name, context, next) {
     return next(FILES[name] ? folder + FILES[name] : name, context);
 }
