@@ -149,8 +149,8 @@ FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wrench *chan
 }
 
 // The given lanes touched, at points that are faster than `least`; or one of a chain `alone`, at any speed.
-FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touched, int alone,
-                                   const fe__step_constants *c, int kind)
+FE_SMALL FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touched, int alone,
+                                            const fe__step_constants *c, int kind)
 {
     float least = alone ? 0.0f : c->threshold;
     ROW *row = &x->row;
@@ -185,7 +185,7 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
 
 // ---- impacts of a chain, one by one: see pass_on.c ------------------------------------------------------------------
 // What the contact gave in this substep leaves the velocities of its bodies, or returns.
-FE_INLINE void NAMED(take_back)(const SPECIAL_ROW *x, fe__solver *s, wide_mask lanes, float sign, int kind)
+FE_SMALL FE_INLINE void NAMED(take_back)(const SPECIAL_ROW *x, fe__solver *s, wide_mask lanes, float sign, int kind)
 {
     const ROW *row = &x->row;
     pair p = NAMED(gather_pair)(row, s, kind), before = p;

@@ -236,8 +236,9 @@ FE_INLINE void NAMED(move_points)(ROW *row, const motion *m, wide3 n, wide_mask 
 
 // A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to
 // where the bodies are. Until then its points on A and on B are apart.
-static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact_arrays *of, const int32_t *index,
-                                                         const int32_t *points, wide_mask lanes, int kind)
+FE_SMALL static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact_arrays *of,
+                                                                  const int32_t *index, const int32_t *points,
+                                                                  wide_mask lanes, int kind)
 {
     const fe__contact *m = of->contacts;
     wide zero = w_set(0.0f);

@@ -502,8 +502,8 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
 // it at once, are over: the next soft pass takes back its normal part, but friction, which only relax solves, would act
 // twice, on bodies that rotated on, and give them energy. So it is carried only as it was before, until the load has
 // lasted for a substep.
-static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide rise,
-                                                            wide_mask rose, int kind)
+FE_SMALL static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load,
+                                                                     wide rise, wide_mask rose, int kind)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
     wide3 n = load3(row->normal), centre = load3(row->centre);
@@ -544,8 +544,9 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 FE_INLINE int NAMED(is_late)(const ROW *row) { return row->put_off || row->behind; }
 
 // the row, prepared, with distances from where the bodies are
-static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact_arrays *of,
-                                                      const fe__lane *lanes, const fe__step_constants *c, int kind)
+FE_SMALL static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact_arrays *of,
+                                                               const fe__lane *lanes, const fe__step_constants *c,
+                                                               int kind)
 {
     int32_t behind = row->behind;
     wide open = row->open;

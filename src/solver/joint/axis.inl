@@ -208,8 +208,9 @@ FE_INLINE wide linear_speed(const linear_row *row, const ends *e)
            (w_dot(load3(row->moment_b), e->b.w) - w_dot(load3(row->moment_a), e->a.w));
 }
 
-FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                              void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
+FE_SMALL FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                       const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                       const fe__step_constants *c, int part, int slot)
 {
     linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -255,8 +256,8 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
     }
 }
 
-FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
-                            int32_t count, const fe__step_constants *c, int slot)
+FE_SMALL FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                     int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const linear_row *row = rows;
@@ -359,9 +360,9 @@ FE_INLINE void apply_angular(const angular_row *row, spins *e, wide impulse)
     e->b = w_add_scaled(e->b, impulse, load3(row->spin_b));
 }
 
-FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                               void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part,
-                               int slot)
+FE_SMALL FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                        const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                        const fe__step_constants *c, int part, int slot)
 {
     angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -411,8 +412,8 @@ FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t s
     }
 }
 
-FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
-                             int32_t count, const fe__step_constants *c, int slot)
+FE_SMALL FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                      int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const angular_row *row = rows;

@@ -49,8 +49,9 @@ FE_INLINE wide3 hinge_torque(const hinge_row *row, wide l1, wide l2)
     return w_add_scaled(w_scale(l1, load3(row->t1)), l2, load3(row->t2));
 }
 
-static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+FE_SMALL static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                   const fe__step_constants *c)
 {
     hinge_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -115,8 +116,8 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                        const fe__step_constants *c)
+FE_SMALL static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                 int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const hinge_row *row = rows;
@@ -159,8 +160,9 @@ FE_INLINE void place_fixed(fixed_row *row, const fe__solver *s)
     store3(row->error, w_scale(w_set(2.0f), w_xyz(q)));
 }
 
-static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+FE_SMALL static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                   const fe__step_constants *c)
 {
     fixed_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -211,8 +213,8 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                        const fe__step_constants *c)
+FE_SMALL static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                 int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const fixed_row *row = rows;
@@ -294,8 +296,9 @@ FE_INLINE wide3 shortened(wide3 a, wide most)
     return w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), w_set(1.0f)), a);
 }
 
-static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                             void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+FE_SMALL static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                      const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                      const fe__step_constants *c)
 {
     rotation_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -367,8 +370,8 @@ static void relax_rotation(fe__solver *s, void *rows, int32_t count, int32_t sid
     }
 }
 
-static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
-                           int32_t count, const fe__step_constants *c)
+FE_SMALL static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                    int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const rotation_row *row = rows;

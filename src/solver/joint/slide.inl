@@ -110,8 +110,9 @@ FE_INLINE wide3 locked_axes(const fe__joints *joints, const row_joints *r)
     return (wide3){*(wide *)keep[0], *(wide *)keep[1], *(wide *)keep[2]};
 }
 
-static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+FE_SMALL static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
+                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
+                                   const fe__step_constants *c)
 {
     slide_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -170,8 +171,8 @@ static void relax_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_slide(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                        const fe__step_constants *c)
+FE_SMALL static void store_slide(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                                 int32_t count, const fe__step_constants *c)
 {
     const slide_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
