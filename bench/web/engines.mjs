@@ -1,5 +1,7 @@
 // The engines behind one face, each as its own page tells to start it. All without sleep, 60 Hz.
 import { readFile } from 'node:fs/promises';
+import { jolt } from './jolt.mjs';
+import { physx } from './physx.mjs';
 
 const STEP = 1 / 60;
 export const engines = {
@@ -70,4 +72,6 @@ export const engines = {
             step: () => H.HP_World_Step(world, STEP), height: (body) => H.HP_Body_GetPosition(body)[1][1],
         };
     },
+    jolt: () => jolt(STEP),
+    physx: () => physx(STEP),
 };
