@@ -168,6 +168,7 @@ def flat(body):
 
 
 def names_of(head):
+    head = re.sub(r"\) : (?:this|base)\(.*", ")", head)  # what another constructor is given names nothing
     inside = re.search(r"[(\[](.*)[)\]]", head)
     parts = re.split(r",(?![^<]*>)", inside[1]) if inside else []
     return [found[1] for found in (re.search(r"(\w+)(?: = .*)?$", part.strip()) for part in parts) if found]
