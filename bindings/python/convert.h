@@ -483,6 +483,24 @@ static void keep_filter(world_box *box, PyObject *filter)
     Py_XSETREF(box->filter, filter == Py_None ? NULL : Py_NewRef(filter));
 }
 
+// ---- lists ----------------------------------------------------------------------------------------------------------
+
+/// A list to be filled. The cycle collector may run while its items are made, and a script in it that looks at all
+/// lists: it does not see this one.
+static PyObject *begin_list(Py_ssize_t count)
+{
+    PyObject *list = PyList_New(count);
+    if (list) PyObject_GC_UnTrack(list);
+    return list;
+}
+
+/// The list, when it is full; or NULL.
+static PyObject *end_list(PyObject *list)
+{
+    if (list) PyObject_GC_Track(list);
+    return list;
+}
+
 // ---- recordings -----------------------------------------------------------------------------------------------------
 
 /// All that waits, as bytes; none when nothing waits, or when the recording ended with its world and all was read.
@@ -551,7 +569,7 @@ static PyObject *notes_of_player(PyObject *capsule)
     int32_t count = fe_player_get_notes(box->player, NULL, sizeof(fe_note), 0);
     if (count < 0) return raise_result(count), NULL;
     fe_note *notes = calloc((size_t)count + 1, sizeof *notes);
-    PyObject *list = notes ? PyList_New(count) : PyErr_NoMemory();
+    PyObject *list = notes ? begin_list(count) : PyErr_NoMemory();
     if (list) (void)fe_player_get_notes(box->player, notes, sizeof *notes, count);
     for (int32_t i = 0; list && i < count; ++i) {
         PyObject *text = PyUnicode_DecodeUTF8(notes[i].text, (Py_ssize_t)strlen(notes[i].text), "replace");
@@ -563,7 +581,7 @@ static PyObject *notes_of_player(PyObject *capsule)
             Py_CLEAR(list);
     }
     free(notes);
-    return list;
+    return end_list(list);
 }
 
 static PyObject *from_divergence(const fe_divergence *d)
@@ -636,16 +654,7 @@ static PyObject *from_vec3(const fe_vec3 *v)
 
 static PyObject *from_corners(const fe_vec3 corners[3])
 {
-    PyObject *tuple = PyTuple_New(3);
-    for (Py_ssize_t i = 0; tuple && i < 3; ++i) {
-        PyObject *corner = from_vec3(&corners[i]);
-        if (!corner) {
-            Py_DECREF(tuple);
-            return NULL;
-        }
-        PyTuple_SET_ITEM(tuple, i, corner);
-    }
-    return tuple;
+    return Py_BuildValue("(NNN)", from_vec3(&corners[0]), from_vec3(&corners[1]), from_vec3(&corners[2]));
 }
 
 static PyObject *from_dvec3(const fe_dvec3 *v) { return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3); }

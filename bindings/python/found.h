@@ -13,37 +13,72 @@ static PyTypeObject *known_classes[CLASSES];
 enum { WORLD_SLOT, CAPSULE_SLOT, ID_SLOT, SLOTS };
 static Py_ssize_t slots[SLOTS];
 
+/// Of the class's own or a base's: another one's would lie beyond the object.
+static int is_slot_of(PyTypeObject *type, PyObject *member)
+{
+    if (!Py_IS_TYPE(member, &PyMemberDescr_Type)) return 0;
+    const PyMemberDef *def = ((PyMemberDescrObject *)member)->d_member;
+    return def->type == T_OBJECT_EX && !(def->flags & READONLY) && PyType_IsSubtype(type, PyDescr_TYPE(member));
+}
+
 static int find_slot(PyTypeObject *type, const char *name, Py_ssize_t *out_slot)
 {
     PyObject *member = PyObject_GetAttrString((PyObject *)type, name);
     if (!member) return -1;
-    int is_slot = Py_IS_TYPE(member, &PyMemberDescr_Type);
+    int is_slot = is_slot_of(type, member);
     if (is_slot) *out_slot = ((PyMemberDescrObject *)member)->d_member->offset;
     Py_DECREF(member);
     if (!is_slot) PyErr_Format(PyExc_TypeError, "%s is no slot", name);
     return is_slot ? 0 : -1;
 }
 
+/// Where objects of the class have their attributes: where those have them that there are already.
+static int find_slots(PyTypeObject *type, Py_ssize_t out_slots[SLOTS])
+{
+    if (find_slot(type, "_world", &out_slots[WORLD_SLOT]) || find_slot(type, "_capsule", &out_slots[CAPSULE_SLOT]) ||
+        find_slot(type, "_id", &out_slots[ID_SLOT]))
+        return -1;
+    if (!known_classes[ENTITY] || memcmp(out_slots, slots, sizeof slots) == 0) return 0;
+    PyErr_SetString(PyExc_TypeError, "the slots are not where they were");
+    return -1;
+}
+
 static int is_class(PyObject *object, PyTypeObject *base)
 {
+    if (!base) return PyErr_SetString(PyExc_RuntimeError, "set_classes() comes first"), 0;
     if (PyType_Check(object) && PyType_IsSubtype((PyTypeObject *)object, base)) return 1;
     PyErr_Format(PyExc_TypeError, "a class of %s is needed", base->tp_name);
     return 0;
 }
 
-/// Takes the classes from a tuple, in the order of the enum: the entities, then the named tuples.
+/// Are objects of the class made by `base`'s own __new__? Those of dict or time.struct_time are more than is made here.
+static int is_made_by(PyObject *class, PyTypeObject *base)
+{
+    PyObject *made = base == &PyTuple_Type ? PyObject_CallMethod((PyObject *)base, "__new__", "O()", class)
+                                           : PyObject_CallMethod((PyObject *)base, "__new__", "O", class);
+    Py_XDECREF(made);
+    return made != NULL;
+}
+
+static int are_classes(PyObject *const given[CLASSES])
+{
+    for (int i = 0; i < CLASSES; ++i) {
+        PyTypeObject *maker = i < HIT ? &PyBaseObject_Type : &PyTuple_Type;
+        if (!is_class(given[i], i == BODY || i == SHAPE ? (PyTypeObject *)given[ENTITY] : maker)) return 0;
+        if (!is_made_by(given[i], maker)) return 0;
+    }
+    return 1;
+}
+
+/// Takes the classes from a tuple, in the order of the enum: the entities, then the named tuples. All or none.
 static PyObject *set_classes(PyObject *tuple)
 {
+    Py_ssize_t found[SLOTS];
     if (!PyTuple_Check(tuple) || PyTuple_GET_SIZE(tuple) != CLASSES)
         return PyErr_SetString(PyExc_TypeError, "a tuple of classes is needed"), NULL;
     PyObject **given = PySequence_Fast_ITEMS(tuple);
-    if (!is_class(given[ENTITY], &PyBaseObject_Type)) return NULL;
-    for (int i = BODY; i < CLASSES; ++i)
-        if (!is_class(given[i], i < HIT ? (PyTypeObject *)given[ENTITY] : &PyTuple_Type)) return NULL;
-    PyTypeObject *entity = (PyTypeObject *)given[ENTITY];
-    if (find_slot(entity, "_world", &slots[WORLD_SLOT]) || find_slot(entity, "_capsule", &slots[CAPSULE_SLOT]) ||
-        find_slot(entity, "_id", &slots[ID_SLOT]))
-        return NULL;
+    if (!are_classes(given) || find_slots((PyTypeObject *)given[ENTITY], found)) return NULL;
+    memcpy(slots, found, sizeof slots);
     for (int i = 0; i < CLASSES; ++i) {
         PyTypeObject *type = (PyTypeObject *)Py_NewRef(given[i]);
         Py_XSETREF(known_classes[i], type);
@@ -60,10 +95,20 @@ typedef struct place {
     PyObject *world, *capsule;
 } place;
 
+/// The cycle collector may run, and a script in it that sets other classes.
+static PyObject *allocate(PyTypeObject *type, Py_ssize_t count)
+{
+    Py_INCREF(type);
+    PyObject *made = type->tp_alloc(type, count);
+    Py_DECREF(type);
+    return made;
+}
+
 static PyObject *new_entity(PyTypeObject *type, const place *in, fe_handle handle)
 {
+    if (!type) return PyErr_SetString(PyExc_RuntimeError, "set_classes() comes first"), NULL;
     PyObject *id = PyLong_FromUnsignedLongLong(handle);
-    PyObject *made = id ? type->tp_alloc(type, 0) : NULL;
+    PyObject *made = id ? allocate(type, 0) : NULL;
     if (!made) {
         Py_XDECREF(id);
         return NULL;
@@ -77,8 +122,8 @@ static PyObject *new_entity(PyTypeObject *type, const place *in, fe_handle handl
 static int not_of_class(PyObject *object, PyTypeObject *type)
 {
     PyObject *wanted = PyObject_GetAttrString((PyObject *)type, "__name__");
-    PyObject *given = PyObject_GetAttrString((PyObject *)Py_TYPE(object), "__name__");
-    if (wanted && given) PyErr_Format(PyExc_TypeError, "a %S is needed, not %R", wanted, given);
+    PyObject *given = wanted ? PyObject_GetAttrString((PyObject *)Py_TYPE(object), "__name__") : NULL;
+    if (given) PyErr_Format(PyExc_TypeError, "a %S is needed, not %R", wanted, given);
     Py_XDECREF(wanted);
     Py_XDECREF(given);
     return -1;
@@ -134,7 +179,7 @@ static PyObject *new_record(PyTypeObject *type, PyObject *const *fields, Py_ssiz
 {
     int whole = 1;
     for (Py_ssize_t i = 0; i < count; ++i) whole &= fields[i] != NULL;
-    PyObject *made = whole ? type->tp_alloc(type, count) : NULL;
+    PyObject *made = whole ? allocate(type, count) : NULL;
     for (Py_ssize_t i = 0; i < count; ++i) {
         if (made)
             PyTuple_SET_ITEM(made, i, fields[i]);
@@ -202,18 +247,19 @@ static PyObject *from_overlap(const place *in, const fe_overlap *overlap)
     return new_record(known_classes[OVERLAP], fields, sizeof fields / sizeof *fields);
 }
 
-static size_t size_of_record(const PyTypeObject *type)
+/// What the records of a list are: HIT, OVERLAP, or handles of an ENTITY; -1: nothing that is known.
+static int kind_of_records(PyTypeObject *type)
 {
-    return type == known_classes[HIT]       ? sizeof(fe_hit)
-           : type == known_classes[OVERLAP] ? sizeof(fe_overlap)
-                                            : sizeof(fe_handle);
+    if (known_classes[HIT] && type == known_classes[HIT]) return HIT;
+    if (known_classes[OVERLAP] && type == known_classes[OVERLAP]) return OVERLAP;
+    return is_class((PyObject *)type, known_classes[ENTITY]) ? ENTITY : -1;
 }
 
-static PyObject *from_record(PyTypeObject *type, const place *in, const void *record)
+static PyObject *from_record(int kind, PyTypeObject *type, const place *in, const void *record)
 {
-    return type == known_classes[HIT]       ? from_hit(in, record)
-           : type == known_classes[OVERLAP] ? from_overlap(in, record)
-                                            : new_entity(type, in, *(const fe_handle *)record);
+    return kind == HIT       ? from_hit(in, record)
+           : kind == OVERLAP ? from_overlap(in, record)
+                             : new_entity(type, in, *(const fe_handle *)record);
 }
 
 /// (class, world, its capsule, a buffer of records or handles): a list of what they say.
@@ -225,15 +271,15 @@ static PyObject *list_of(PyObject *arguments)
     call_state call;
     if (!PyArg_UnpackTuple(arguments, "list_of", 4, 4, &class, &in.world, &in.capsule, &buffer)) return NULL;
     PyTypeObject *type = (PyTypeObject *)class;
-    if (type != known_classes[HIT] && type != known_classes[OVERLAP] && !is_class(class, known_classes[ENTITY]))
-        return NULL;
-    size_t size = size_of_record(type);
+    const int kind = kind_of_records(type);
+    if (kind < 0) return NULL;
+    const size_t size = kind == HIT ? sizeof(fe_hit) : kind == OVERLAP ? sizeof(fe_overlap) : sizeof(fe_handle);
     begin_call(&call);
     if (!borrow(&call, buffer, size, PyBUF_C_CONTIGUOUS, "records", &view)) {
         Py_ssize_t count = view->len / (Py_ssize_t)size;
-        list = PyList_New(count);
+        list = begin_list(count);
         for (Py_ssize_t i = 0; list && i < count; ++i) {
-            PyObject *item = from_record(type, &in, (const char *)view->buf + (size_t)i * size);
+            PyObject *item = from_record(kind, type, &in, (const char *)view->buf + (size_t)i * size);
             if (item)
                 PyList_SET_ITEM(list, i, item);
             else
@@ -241,7 +287,7 @@ static PyObject *list_of(PyObject *arguments)
         }
     }
     end_call(&call);
-    return list;
+    return end_list(list);
 }
 
 #endif

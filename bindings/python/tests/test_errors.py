@@ -3,8 +3,10 @@
 import gc
 import math
 import os
+import subprocess
 import sys
 import threading
+import time
 from array import array
 from typing import Any, Callable, List, Set
 
@@ -15,10 +17,13 @@ from feather_physics import (
     Body,
     Box,
     BusyError,
+    Closest,
     FeatherError,
     Hit,
     InvalidArgumentError,
+    Overlap,
     Pool,
+    Shape,
     Sphere,
     StaleHandleError,
     WrongKindError,
@@ -26,6 +31,7 @@ from feather_physics import (
     _flat,
     records,
 )
+from feather_physics.objects import Entity
 
 
 def test_everything_of_a_closed_world_is_stale() -> None:
@@ -201,6 +207,84 @@ def test_a_hit_holds_its_world_and_lets_it_go(world: World, ball: Body) -> None:
     assert sys.getrefcount(world) == held[0] + 2
     del hit
     assert held == (sys.getrefcount(world), sys.getrefcount(world._capsule), sys.getrefcount(Body), sys.getrefcount(Hit))
+
+
+def test_a_list_is_seen_when_it_is_full(world: World) -> None:
+    for body in world.create_bodies([(0, -2 * i, 0) for i in range(199)]):
+        body.add_sphere(0.5)
+    seen = 0
+
+    def look(phase: str, information: Any) -> None:
+        nonlocal seen
+        for found in gc.get_objects():
+            if type(found) is list and len(found) == 199:
+                assert isinstance(found[198], (Body, Hit, Overlap))  # one that nobody wrote would end the process
+        seen += 1
+
+    threshold = gc.get_threshold()
+    gc.callbacks.append(look)
+    gc.set_threshold(50)
+    try:
+        kept = world.bodies, world.raycast_all((0, 9, 0), (0, -900, 0)), world.overlap_shapes(Sphere(900), (0, 0, 0))
+    finally:
+        gc.set_threshold(*threshold)
+        gc.callbacks.remove(look)
+    assert seen > 3 and [len(found) for found in kept] == [199] * 3
+
+
+class Elsewhere:
+    __slots__ = ("A", "_world", "_capsule", "_id")
+
+
+class Half:
+    __slots__ = ("A", "_world")
+
+
+class Borrowed:
+    __slots__ = ()
+    _world, _capsule, _id = slice.start, slice.stop, slice.step
+
+
+class Flags(Exception):
+    __slots__ = ("_capsule", "_id")
+    _world = BaseException.__suppress_context__  # a byte
+
+
+@pytest.mark.parametrize("entity", [Elsewhere, Half, Borrowed, Flags, type("OfDict", (dict,), {"__slots__": ("_world", "_capsule", "_id")})])
+def test_classes_that_cannot_be_made_are_refused(world: World, ball: Body, entity: type) -> None:
+    with pytest.raises((TypeError, AttributeError)):
+        _flat.set_classes((entity, entity, entity, Hit, Closest, Overlap))
+    with pytest.raises(TypeError, match="not safe"):  # its objects have more fields than are made
+        _flat.set_classes((Entity, Body, Shape, Hit, Closest, time.struct_time))
+    assert world.bodies == [ball] and len(world.transforms(bodies=world.bodies)) == 1
+    _flat.set_classes((Entity, Body, Shape, Hit, Closest, Overlap))
+
+
+def test_the_flat_module_alone_makes_no_objects() -> None:
+    script = """if True:
+        import importlib.util
+        spec = importlib.util.spec_from_file_location("_flat", PATH)
+        flat = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(flat)
+        world = flat.world_create(flat.world_def())
+        body = flat.body_create(world, flat.body_def())
+        flat.shape_create(world, body, flat.shape_def(), flat.geometry_sphere(0.5))
+        for call in (
+            lambda: flat.handle_of(1, 2, int),
+            lambda: flat.handles_of(1, [2], int),
+            lambda: flat.list_of(int, 1, 2, b""),
+            lambda: flat.list_of(None, 1, 2, b""),
+            lambda: flat.world_raycast(world, (0, 9, 0), (0, -20, 0), None, None),
+        ):
+            try:
+                call()
+            except RuntimeError as error:
+                assert "set_classes() comes first" in str(error)
+            else:
+                raise AssertionError
+    """
+    done = subprocess.run([sys.executable, "-c", script.replace("PATH", repr(_flat.__file__))], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_arrays_that_do_not_fit(world: World, ball: Body) -> None:
