@@ -5,13 +5,6 @@
 #define PYTHON_BATCH_H
 #include "convert.h"
 
-static const char batch_name[] = "feather_physics.batch";
-
-typedef struct batch_box {
-    fe_batch *batch; ///< NULL: closed
-    int32_t count;   ///< of worlds
-} batch_box;
-
 static void release_batch(PyObject *capsule)
 {
     batch_box *box = PyCapsule_GetPointer(capsule, batch_name);
@@ -66,13 +59,14 @@ static PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments)
     if (!PyArg_ParseTuple(arguments, "O", &batch)) return NULL;
     batch_box *box = batch_of(batch);
     if (!box) return NULL;
+    if (box->users) return fails(FE_ERROR_BUSY, "batch_destroy: another thread uses the batch"), NULL;
     const fe_result result = fe_batch_destroy(box->batch);
     if (result != FE_OK) return raise_result(result), NULL;
     box->batch = NULL;
     Py_RETURN_NONE;
 }
 
-/// (batch, index): the capsule of a world, which has to hold the batch (see keep)
+/// (batch, index): the capsule of a world, which holds the batch
 static PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments)
 {
     PyObject *batch;
@@ -87,20 +81,8 @@ static PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments)
     world_box *made = calloc(1, sizeof *made);
     PyObject *capsule = made ? PyCapsule_New(made, world_name, release_world) : PyErr_NoMemory();
     if (!capsule) return free(made), NULL;
-    *made = (world_box){.world = world, .is_of_batch = 1, .kept = Py_NewRef(batch)};
+    *made = (world_box){.world = world, .batch = Py_NewRef(batch)};
     return capsule;
-}
-
-/// (world of a batch that is closed)
-static PyObject *flat_batch_end_world(PyObject *self, PyObject *arguments)
-{
-    PyObject *capsule;
-    (void)self;
-    if (!PyArg_ParseTuple(arguments, "O", &capsule)) return NULL;
-    world_box *box = world_of(capsule);
-    if (!box) return NULL;
-    if (box->is_of_batch) close_world(box);
-    Py_RETURN_NONE;
 }
 
 // ---- buffers --------------------------------------------------------------------------------------------------------
@@ -234,9 +216,11 @@ static PyObject *flat_batch_step(PyObject *self, PyObject *arguments)
     (void)self;
     if (!PyArg_ParseTuple(arguments, "OfiOO", &batch, &dt, &steps, &mask, &results)) return NULL;
     if (begin_batch_call(&c, batch, mask, results) == 0) {
+        ++c.box->users;
         PyThreadState *others = PyEval_SaveThread();
         failed = fe_batch_step(c.box->batch, dt, steps, c.mask.buf, c.results.buf);
         PyEval_RestoreThread(others);
+        --c.box->users;
     }
     return end_batch_call(&c, failed);
 }

@@ -54,6 +54,7 @@ static const char store_name[] = "feather_physics.store";
 static const char state_name[] = "feather_physics.state";
 static const char recorder_name[] = "feather_physics.recorder";
 static const char player_name[] = "feather_physics.player";
+static const char batch_name[] = "feather_physics.batch";
 
 typedef struct world_box {
     fe_world *world;       ///< NULL: closed
@@ -64,7 +65,7 @@ typedef struct world_box {
     int steppers;          ///< 1 while a thread steps it without the GIL, more when its filter steps again
     unsigned long stepper; ///< that thread
     PyObject *player;      ///< the capsule of the player that the world belongs to; NULL: it belongs to the box
-    int is_of_batch;       ///< 1: it belongs to the batch that `kept` holds
+    PyObject *batch;       ///< the capsule of the batch that the world belongs to; NULL: it belongs to the box
     fe_recorder *orphan;   ///< nobody has it any more, and the world was in use when it was to end. Or NULL
 } world_box;
 
@@ -99,6 +100,25 @@ typedef struct player_box {
     int busy;          ///< 1 while a thread uses it without the GIL
 } player_box;
 
+typedef struct batch_box {
+    fe_batch *batch; ///< NULL: closed
+    int32_t count;   ///< of worlds
+    int users;       ///< threads that use it or one of its worlds without the GIL
+} batch_box;
+
+/// The box of a world's batch; NULL: it is of none.
+static batch_box *home_of(const world_box *box)
+{
+    return box->batch ? PyCapsule_GetPointer(box->batch, batch_name) : NULL;
+}
+
+/// A world ends with its batch, whoever has it.
+static int world_lives(const world_box *box)
+{
+    const batch_box *batch = home_of(box);
+    return box->world && (!batch || batch->batch);
+}
+
 static void drop_orphan(world_box *box)
 {
     if (box->orphan && fe_recorder_destroy(box->orphan) == FE_OK) box->orphan = NULL;
@@ -118,9 +138,10 @@ static void release_world(PyObject *capsule)
     if (!box) return;
     player_box *player = box->player ? PyCapsule_GetPointer(box->player, player_name) : NULL;
     if (player && player->view == capsule) player->view = NULL;
-    if (box->world && !box->player && !box->is_of_batch) (void)fe_world_destroy(box->world);
+    if (box->world && !box->player && !box->batch) (void)fe_world_destroy(box->world);
     close_world(box);
     Py_XDECREF(box->player);
+    Py_XDECREF(box->batch);
     free(box);
 }
 
@@ -144,7 +165,7 @@ static void release_store(PyObject *capsule)
 static int history_lives(const history_box *box)
 {
     const world_box *world = PyCapsule_GetPointer(box->world, world_name);
-    return box->history && world && world->world;
+    return box->history && world && world_lives(world);
 }
 
 static void release_history(PyObject *capsule)
@@ -288,7 +309,7 @@ static void *box_of(PyObject *object, const char *name, const char *what)
 static world_box *world_of(PyObject *object)
 {
     world_box *box = box_of(object, world_name, "world");
-    if (box && !box->world) {
+    if (box && !world_lives(box)) {
         (void)fails(FE_ERROR_STALE, "the world is closed");
         return NULL;
     }
@@ -308,7 +329,7 @@ static pool_box *pool_of(PyObject *object)
 static int store_lives(const store_box *box)
 {
     const world_box *world = box->world ? PyCapsule_GetPointer(box->world, world_name) : NULL;
-    if (box->store && (!box->world || (world && world->world))) return 1;
+    if (box->store && (!box->world || (world && world_lives(world)))) return 1;
     (void)fails(FE_ERROR_STALE, "the store is closed");
     return 0;
 }
@@ -395,7 +416,7 @@ static PyObject *keep(PyObject *owner, PyObject *object)
 /// pair filter may not do in its own thread is the library's to refuse.
 static int may_use(const world_box *box, int writes, const char *function)
 {
-    if (!box->world) return fails(FE_ERROR_STALE, "the world is closed");
+    if (!world_lives(box)) return fails(FE_ERROR_STALE, "the world is closed");
     if (writes && box->player) {
         PyErr_Format(error_class(FE_ERROR_STATE), "%s: the world is a player's, to be read: release() hands it over",
                      function);
@@ -407,22 +428,36 @@ static int may_use(const world_box *box, int writes, const char *function)
     return -1;
 }
 
-static void enter_read(world_box *box) { ++box->readers; }
+/// A batch does not end while a thread uses one of its worlds.
+static void count_user(const world_box *box, int change)
+{
+    batch_box *batch = home_of(box);
+    if (batch) batch->users += change;
+}
+
+static void enter_read(world_box *box)
+{
+    count_user(box, 1);
+    ++box->readers;
+}
 
 static int leave_read(world_box *box)
 {
+    count_user(box, -1);
     if (--box->readers == 0) drop_orphan(box);
     return 0;
 }
 
 static void enter_step(world_box *box)
 {
+    count_user(box, 1);
     if (box->steppers++ == 0) box->stepper = PyThread_get_thread_ident();
 }
 
 /// Raises what the filter raised during the step.
 static int leave_step(world_box *box)
 {
+    count_user(box, -1);
     if (--box->steppers > 0) return 0;
     drop_orphan(box);
     if (!box->failure[0]) return 0;
@@ -436,7 +471,7 @@ static int may_end(const recorder_box *box)
 {
     if (box->readers) return fails(FE_ERROR_BUSY, "recorder_destroy: another thread reads the recorder");
     const world_box *world = PyCapsule_GetPointer(box->world, world_name);
-    return world && world->world ? may_use(world, 1, "recorder_destroy") : 0;
+    return world && world_lives(world) ? may_use(world, 1, "recorder_destroy") : 0;
 }
 
 /// @return its world's capsule, held until leave_player; or NULL

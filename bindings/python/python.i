@@ -27,7 +27,6 @@
 %native(handles_of) PyObject *flat_handles_of(PyObject *self, PyObject *arguments);
 %native(list_of) PyObject *flat_list_of(PyObject *self, PyObject *arguments);
 %native(batch_get_world) PyObject *flat_batch_get_world(PyObject *self, PyObject *arguments);
-%native(batch_end_world) PyObject *flat_batch_end_world(PyObject *self, PyObject *arguments);
 %native(batch_create) PyObject *flat_batch_create(PyObject *self, PyObject *arguments);
 %native(batch_destroy) PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments);
 %native(batch_bind) PyObject *flat_batch_bind(PyObject *self, PyObject *arguments);

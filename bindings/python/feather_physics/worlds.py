@@ -91,7 +91,6 @@ class Worlds:
         _flat.batch_destroy(self._capsule)
         self._bound = ([], [])
         for view in list(self._views.values()):
-            _flat.batch_end_world(view._capsule)
             view._closed = True
         self._views.clear()
 

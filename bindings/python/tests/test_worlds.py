@@ -19,6 +19,7 @@ from feather_physics import (
     World,
     Worlds,
     WorldsError,
+    _flat,
 )
 
 COUNT = 9
@@ -153,6 +154,31 @@ def test_a_world_of_the_batch_takes_all_other_calls(world: World) -> None:
     del worlds
     gc.collect()
     kept.step()  # it keeps the batch
+
+
+def test_a_store_that_was_asked_for_ends_with_the_batch() -> None:
+    world = World()
+    worlds = Worlds(world, 2)
+    store = worlds[0].store  # of a world that nobody has any more
+    gc.collect()
+    world.close()
+    hull = store.create_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    assert not store.closed and hull.is_valid
+    worlds.close()
+    assert store.closed and not hull.is_valid
+    with pytest.raises(StaleHandleError):
+        store.create_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+
+
+def test_capsules_of_worlds_end_with_the_batch(world: World) -> None:
+    worlds = Worlds(world, 2)
+    capsule = _flat.batch_get_world(worlds._capsule, 0)
+    _flat.keep(capsule, None)
+    _flat.world_step(capsule, 0.01)
+    worlds.close()
+    for call in (lambda: _flat.world_step(capsule, 0.01), lambda: _flat.world_get_store(capsule), lambda: _flat.world_destroy(capsule)):
+        with pytest.raises(StaleHandleError):
+            call()
 
 
 def test_worlds_differ_in_mass_and_friction(world: World) -> None:
