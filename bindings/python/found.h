@@ -141,7 +141,9 @@ static int to_handle(PyObject *world, PyObject *object, PyTypeObject *type, fe_h
     }
     if (!PyLong_Check(id)) return PyErr_SetString(PyExc_TypeError, "an object without a handle"), -1;
     int overflow; // by digits: PyLong_AsUnsignedLongLong() goes byte by byte
-    *out_handle = (fe_handle)PyLong_AsLongLongAndOverflow(id, &overflow);
+    const long long handle = PyLong_AsLongLongAndOverflow(id, &overflow);
+    if (overflow || handle < 0) return PyErr_SetString(PyExc_OverflowError, "a handle is an integer below 2^53"), -1;
+    *out_handle = (fe_handle)handle;
     return 0;
 }
 

@@ -198,6 +198,13 @@ def test_bodies_that_are_none_of_this_world(world: World, ball: Body) -> None:
     assert ball.is_valid
 
 
+@pytest.mark.parametrize("id", [-1, 2**63, 2**64, -(2**200)])
+def test_integers_that_are_no_handles(world: World, ball: Body, id: int) -> None:
+    for use in (lambda body: world.is_ignored(ball, body), lambda body: world.transforms(bodies=[body])):
+        with pytest.raises(OverflowError):
+            use(Body(world, id))
+
+
 def test_a_hit_holds_its_world_and_lets_it_go(world: World, ball: Body) -> None:
     held = sys.getrefcount(world), sys.getrefcount(world._capsule), sys.getrefcount(Body), sys.getrefcount(Hit)
     for _ in range(100):
