@@ -1,15 +1,19 @@
 // batch.h - many worlds that step together, for Python: batches as capsules, arrays as buffers of the caller's.
 //
-// Who binds an array keeps it: the layer above holds a memoryview of each, so that none is resized or freed meanwhile.
+// The box of a batch holds the buffers that are bound, so that none is resized or freed meanwhile.
 #ifndef PYTHON_BATCH_H
 #define PYTHON_BATCH_H
 #include "convert.h"
+
+/// Two: inputs, outputs.
+static void drop_bound(struct arrays *bound);
 
 static void release_batch(PyObject *capsule)
 {
     batch_box *box = PyCapsule_GetPointer(capsule, batch_name);
     if (!box) return;
     if (box->batch) (void)fe_batch_destroy(box->batch);
+    drop_bound(box->bound);
     Py_XDECREF((PyObject *)PyCapsule_GetContext(capsule)); // its pool, its store
     free(box);
 }
@@ -62,7 +66,10 @@ static PyObject *flat_batch_destroy(PyObject *self, PyObject *arguments)
     if (box->users) return fails(FE_ERROR_BUSY, "batch_destroy: another thread uses the batch"), NULL;
     const fe_result result = fe_batch_destroy(box->batch);
     if (result != FE_OK) return raise_result(result), NULL;
+    struct arrays *bound = box->bound;
     box->batch = NULL;
+    box->bound = NULL;
+    drop_bound(bound);
     Py_RETURN_NONE;
 }
 
@@ -118,6 +125,12 @@ static void drop_arrays(arrays *a)
     for (int32_t i = 0; i < a->count; ++i) drop_buffer(a->items + i), drop_buffer(a->data + i);
 }
 
+static void drop_bound(arrays *bound)
+{
+    if (bound) drop_arrays(bound), drop_arrays(bound + 1);
+    free(bound);
+}
+
 /// (field, items or None, relative_to, origin, data): floats or doubles, by the format of the data
 static int take_array(PyObject *given, int writable, arrays *out)
 {
@@ -168,8 +181,9 @@ static PyObject *flat_batch_bind(PyObject *self, PyObject *arguments)
     if (!take_arrays(inputs, 0, in) && !take_arrays(outputs, 1, out)) box = batch_of(batch);
     const fe_result result = box ? fe_batch_bind(box->batch, in->of, in->count, out->of, out->count) : FE_OK;
     if (result != FE_OK) raise_result(result);
-    drop_arrays(in), drop_arrays(out);
-    free(in);
+    arrays *unused = in;
+    if (box && result == FE_OK) unused = box->bound, box->bound = in;
+    drop_bound(unused);
     if (!box || result != FE_OK) return NULL;
     Py_RETURN_NONE;
 }

@@ -101,9 +101,10 @@ typedef struct player_box {
 } player_box;
 
 typedef struct batch_box {
-    fe_batch *batch; ///< NULL: closed
-    int32_t count;   ///< of worlds
-    int users;       ///< threads that use it or one of its worlds without the GIL
+    fe_batch *batch;      ///< NULL: closed
+    int32_t count;        ///< of worlds
+    int users;            ///< threads that use it or one of its worlds without the GIL
+    struct arrays *bound; ///< inputs and outputs, whose buffers it holds; NULL: none
 } batch_box;
 
 /// The box of a world's batch; NULL: it is of none.

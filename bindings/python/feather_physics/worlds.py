@@ -143,7 +143,6 @@ class Worlds:
     ) -> Any:
         made = self.array(field, items) if out is None else out
         bound = list(self._bound[0]), list(self._bound[1])
-        # the memoryview keeps the buffer where it is
         bound[side].append(self._array(field, items, memoryview(made), relative_to, origin))
         _flat.batch_bind(self._capsule, *bound)
         self._bound = bound

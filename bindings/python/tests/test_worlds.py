@@ -1,5 +1,6 @@
 """Batches of worlds: equal to a loop, with arrays that NumPy shares."""
 
+import copy
 import gc
 from typing import Any, List
 
@@ -89,6 +90,29 @@ def test_arrays_are_shared_and_outlive_the_batch(world: World) -> None:
         worlds.step()
     with pytest.raises(StaleHandleError):
         worlds.close()
+
+
+def test_bound_arrays_are_held_whoever_bound_them(world: World) -> None:
+    bodies = build(world)
+    worlds = Worlds(world, COUNT)
+    data = bytearray(4 * COUNT * len(bodies) * 7)
+    transforms = worlds._array("transform", bodies, memoryview(data).cast("f"), None, (0.0, 0.0, 0.0))
+    _flat.batch_bind(worlds._capsule, [], [transforms])
+    del transforms
+    with pytest.raises(BufferError):
+        data.clear()
+    worlds.step()
+    assert any(data)
+    worlds.unbind()
+    data.clear()
+    other = copy.copy(worlds)  # the same batch
+    bound = other.output("transform", bodies).obj
+    del other
+    gc.collect()
+    with pytest.raises(BufferError):
+        bound.clear()
+    worlds.close()
+    bound.clear()
 
 
 def test_fields_are_read_and_written(world: World) -> None:
