@@ -45,5 +45,7 @@ def draw(scenes: list[str], ratios: dict[str, list[float]]) -> Figure:
 
 
 if __name__ == "__main__":
-    matplotlib.rcParams["svg.hashsalt"] = "feather"  # the same file of the same table
+    matplotlib.rcParams.update(
+        {"svg.hashsalt": "feather", "svg.fonttype": "none"}
+    )  # the same small file of the same table
     draw(*read(sys.stdin.readlines())).savefig(sys.argv[1], metadata={"Date": None})
