@@ -394,6 +394,49 @@ static void results_do_not_depend_on_width_or_workers(void **state)
     }
 }
 
+// ---- lanes of a row are written by several workers ------------------------------------------------------------------
+// Trees of one island, each solved by some worker, may have locks in one row: nobody's write is lost
+typedef struct shared_row {
+    const fe__lock_lanes *locks;
+    int32_t part;
+    _Atomic int32_t lost;
+    _Alignas(64) unsigned char bytes[8192];
+} shared_row;
+
+static void add_and_take(void *argument, int32_t lane)
+{
+    enum { ROUNDS = 200, ADDS = 500 };
+    shared_row *row = argument;
+    for (int32_t round = 0; round < ROUNDS; ++round) {
+        const double one[3] = {1.0, 1.0, 1.0};
+        double sum[3] = {0.0, 0.0, 0.0};
+        for (int32_t i = 0; i < ADDS; ++i) (void)row->locks->add(row->part, row->bytes, lane, one, 1);
+        int32_t count = row->locks->take(row->part, row->bytes, lane, sum);
+        for (int32_t k = 0; k < count; ++k)
+            if (sum[k] != (double)ADDS) atomic_fetch_add(&row->lost, 1);
+    }
+}
+
+static void no_worker_overwrites_the_lanes_of_others(void **state)
+{
+    static const int32_t parts[] = {FE__PART_POINT, FE__PART_FIXED, FE__PART_HINGE, FE__PART_DISTANCE};
+    static shared_row row;
+    (void)state;
+    fe_pool *pool = fe__pool_create(4);
+    fe__pool_assume_cores(pool, 4);
+    for (int32_t simd = FE_SIMD_PLAIN; simd <= FE_SIMD_WASM; ++simd) {
+        const fe__kernels *kernels = fe__kernels_of(simd);
+        for (size_t i = 0; kernels && i < sizeof parts / sizeof *parts; ++i) {
+            assert_in_range(kernels->joint->of[parts[i]].row_size, 1, sizeof row.bytes);
+            row.locks = &kernels->joint->locks, row.part = parts[i];
+            memset(row.bytes, 0, sizeof row.bytes);
+            fe__pool_run(pool, add_and_take, &row, 4);
+            assert_int_equal(row.lost, 0);
+        }
+    }
+    fe__pool_destroy(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -406,6 +449,7 @@ int main(void)
         cmocka_unit_test(hubs_keep_their_overflow_when_joints_go),
         cmocka_unit_test(locks_hold_exactly_against_every_kind),
         cmocka_unit_test(results_do_not_depend_on_width_or_workers),
+        cmocka_unit_test(no_worker_overwrites_the_lanes_of_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,9 @@
 // lock_lanes.inl - how the trees reach a lane of the sweep's rows, see tree/lock.h. Part of joint.simd.c.
 
+// Other lanes of a row may be of trees that other workers solve meanwhile: of an impulse a lane is read and written
+// alone, not as (*a)[i], for which clang loads and stores all of them
+FE_INLINE float *lane_at(wide *a, int32_t i) { return (float *)(void *)a + i; }
+FE_INLINE float impulse_lane(const wide *a, int32_t i) { return ((const float *)(const void *)a)[i]; }
 FE_INLINE fe_vec3 lane_of(const wide *a, int32_t i) { return fe__vec3(a[0][i], a[1][i], a[2][i]); }
 FE_INLINE fe_quat quat_lane(const wide *a, int32_t i) { return (fe_quat){a[0][i], a[1][i], a[2][i], a[3][i]}; }
 
@@ -17,7 +21,7 @@ static void read_point(const point_row *row, int32_t i, fe__lock *out)
 {
     READ_ENDS(row);
     READ_ANCHORS(row);
-    for (int k = 0; k < 3; ++k) out->impulse[k] = row->impulse[k][i];
+    for (int k = 0; k < 3; ++k) out->impulse[k] = impulse_lane(row->impulse + k, i);
 }
 
 static void read_slide(const slide_row *row, int32_t i, fe__lock *out)
@@ -25,7 +29,7 @@ static void read_slide(const slide_row *row, int32_t i, fe__lock *out)
     READ_ENDS(row);
     READ_ANCHORS(row);
     out->frame = quat_lane(row->first_frame, i);
-    for (int k = 0; k < 3; ++k) out->keeps[k] = row->keep[k][i], out->impulse[k] = row->impulse[k][i];
+    for (int k = 0; k < 3; ++k) out->keeps[k] = row->keep[k][i], out->impulse[k] = impulse_lane(row->impulse + k, i);
 }
 
 static void read_hinge(const hinge_row *row, int32_t i, fe__lock *out)
@@ -46,7 +50,7 @@ static void read_distance(const linear_row *row, int32_t i, fe__lock *out)
     READ_ENDS(row);
     READ_ANCHORS(row);
     out->frame = quat_lane(row->first_frame, i);
-    out->length = row->f.low[i], out->impulse[0] = row->f.under[i];
+    out->length = row->f.low[i], out->impulse[0] = impulse_lane(&row->f.under, i);
 }
 
 static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out_lock)
@@ -71,7 +75,7 @@ static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out
 
 // ---- to a lane ------------------------------------------------------------------------------------------------------
 FE_INLINE fe_dvec3 wide_lane(const wide *a, int32_t i) { return fe__widen(lane_of(a, i)); }
-FE_INLINE void add_lane(wide *to, int32_t i, double a) { (*to)[i] += (float)a; }
+FE_INLINE void add_lane(wide *to, int32_t i, double a) { *lane_at(to, i) += (float)a; }
 FE_INLINE void add_lane3(wide *to, int32_t i, fe_dvec3 a)
 {
     add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z);
@@ -132,8 +136,9 @@ static int32_t add_lock(int32_t part, void *row, int32_t lane, const double *imp
 static int32_t take_lanes(wide *impulse, int32_t i, int32_t count, double *l)
 {
     for (int32_t k = 0; k < count; ++k) {
-        l[k] = (double)impulse[k][i];
-        impulse[k][i] = 0.0f;
+        float *at = lane_at(impulse + k, i);
+        l[k] = (double)*at;
+        *at = 0.0f;
     }
     return count;
 }
