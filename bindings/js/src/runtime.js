@@ -108,9 +108,11 @@ function grow(bytes) {
     if (block) spent.push(block);
     block = made, blockSize = bytes, top = 0;
 }
+const KEPT = 2 ** 24; // bytes between calls: half a million poses. More would be missing elsewhere
 // Begins a call: what the last one's arrays lay in is free again
 export function reset() {
     top = 0;
+    if (blockSize > KEPT) spent.push(block), block = blockSize = 0;
     while (spent.length) x.free(spent.pop());
 }
 export function temp(bytes) {
@@ -273,7 +275,8 @@ const BYTES = { f: 4, u: 4, i: 4, b: 1, h: 8 };
 // Copies numbers, handles or records in; returns address and number. A kind is a letter of BYTES or a record's table.
 export function listIn(kind, v, name) {
     const n = v?.length;
-    if (!Number.isInteger(n) || typeof v === 'string') wrong(name, 'an array', v);
+    // what has a length of a billion, and nothing there, shall not take a billion bytes first
+    if (!Number.isInteger(n) || typeof v === 'string' || (n > 0 && !(n - 1 in v))) wrong(name, 'an array', v);
     if (typeof kind !== 'string') {
         const at = temp(kind[0] * n);
         for (let k = 0; k < n; ++k) make(kind, at + k * kind[0], v[k], `${name}[${k}]`);

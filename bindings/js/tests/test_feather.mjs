@@ -364,11 +364,25 @@ test('an array that no memory holds is an error, and the world lives on', () => 
     const world = new World(), refusal = { code: 'FE_ERROR_MEMORY' };
     pile(world, 3);
     for (const length of [2 ** 29, 2 ** 30, 2 ** 40]) { // beyond 2^32 bytes, where a size of 32 bits begins anew
-        assert.throws(() => world.list({ length }), refusal);
-        assert.throws(() => world.destroyBodies({ length }), refusal);
-        assert.throws(() => world.createHull({ points: { length: 3 * length } }), refusal);
+        const ending = (n) => ({ length: n, [n - 1]: 0 });
+        assert.throws(() => world.list(ending(length)), refusal);
+        assert.throws(() => world.destroyBodies(ending(length)), refusal);
+        assert.throws(() => world.createHull({ points: ending(3 * length) }), refusal);
     }
     world.step(1 / 60);
     assert.equal(world.bodies.length, 4);
     assert.equal(world.list(world.bodies).poses().length, 28);
+});
+
+test('an array of nothing takes no memory, and a large one gives it back', async () => {
+    const { room } = await import(file('core.js')), world = new World(), large = 2 ** 26;
+    const level = { rows: 2, columns: 2, cellX: 1, cellZ: 1, heights: [0, 0, 0, 0] };
+    world.list(world.bodies);
+    const first = room().bytes;
+    assert.throws(() => world.createHeightfield({ ...level, holes: { length: 1e9 } }), TypeError);
+    assert.ok(room().bytes > first - 100, 'all but the heights is free');
+    assert.throws(() => world.createHeightfield({ ...level, holes: new Uint8Array(large) }), TypeError);
+    world.list(world.bodies);
+    assert.ok(room().bytes < large);
+    world.destroy();
 });
