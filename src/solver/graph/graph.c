@@ -105,12 +105,9 @@ static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
 static fe__group *open_contacts(fe__builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts,
                                 const fe__kernels *kernels)
 {
-    int32_t thin = contacts <= FE__THIN_WIDTH && b->width > FE__THIN_WIDTH;
     fe__group like = {.kind = kind, .colour = FE__CONTACT_COLOURS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
-    like.width = thin ? FE__THIN_WIDTH : b->width;
-    if (!thin) return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
-    // a wide row may come next
-    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin_contact->row_size[kind]));
+    like.width = fe__width_for(b, contacts);
+    return fe__open_group(b, batch, like, contacts, fe__contact_kernels_of(kernels, like.width)->row_size[kind]);
 }
 
 // contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation

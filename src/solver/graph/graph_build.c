@@ -17,7 +17,8 @@ fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int3
     g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + like.width - 1) / like.width;
     for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, 0, dummy, dummy};
     s->lane_count += g->rows * g->width;
-    batch->row_bytes += (int64_t)g->rows * row_size;
+    // a wide row may come after thin ones
+    batch->row_bytes += g->rows * (g->width < b->width ? fe__whole_blocks(row_size) : row_size);
     ++batch->group_count;
     return g;
 }

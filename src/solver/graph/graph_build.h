@@ -79,6 +79,12 @@ static inline int64_t fe__forest_bytes(const fe__forest_kernels *forest, int32_t
     return fe__whole_blocks(forest->head_bytes + (int64_t)forest->link_bytes * links);
 }
 
+// Lanes of a row of a group of so many contacts or joints: few would leave a wide one empty
+static inline int32_t fe__width_for(const fe__builder *b, int32_t lanes)
+{
+    return lanes <= FE__THIN_WIDTH ? FE__THIN_WIDTH : b->width;
+}
+
 // Islands of bodies, batches of islands; bodies, contacts and joints in the order of their batches
 void fe__graph_find_batches(fe__builder *b);
 // Groups of the joints of batch k, and its trees

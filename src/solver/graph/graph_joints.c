@@ -16,11 +16,8 @@ static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int
     int32_t colour = key / FE__SIDES, part = colour / (FE__JOINT_COLOURS + 1);
     fe__group like = {.kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
     like.alone = colour % (FE__JOINT_COLOURS + 1) == FE__JOINT_OVERFLOW;
-    int32_t thin = lanes <= FE__THIN_WIDTH && b->width > FE__THIN_WIDTH;
-    like.width = thin ? FE__THIN_WIDTH : b->width;
-    if (!thin) return fe__open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
-    // a wide row may come next
-    return fe__open_group(b, batch, like, lanes, (int32_t)fe__whole_blocks(kernels->thin_joint->of[part].row_size));
+    like.width = fe__width_for(b, lanes);
+    return fe__open_group(b, batch, like, lanes, fe__joint_kernels_of(kernels, like.width)->of[part].row_size);
 }
 
 static fe__lane joint_lane(const fe__builder *b, int32_t joint)
