@@ -30,6 +30,10 @@ typedef enum fe__range_number {
     FE__RANGE_GROWING, // those of a counter or a bound, which tells of what was, not of what is
     FE__RANGE_FINITE,
     FE__RANGE_POSITIVE, // or 0
+    FE__RANGE_SPEED,    // m/s, rad/s: what ends a step is below it
+    FE__RANGE_SWIFT,    // m/s, of the fastest point of a body
+    FE__RANGE_PLACE,    // m, in a body's frame
+    FE__RANGE_LENGTH,   // m, of a body, or 0
     FE__RANGE_UNIT,     // of a unit vector, but for its rounding
     FE__RANGE_SECONDS,
     FE__RANGE_BOOL,

@@ -66,6 +66,8 @@ FE__STRAIGHT uint32_t fe__doubt_float(uint32_t bits, fe__range_number range)
     case FE__RANGE_FINITE:
         return (bits & FE__EXPONENT) + FE__EXPONENT_STEP;
     case FE__RANGE_UNIT:
+    case FE__RANGE_SPEED:
+    case FE__RANGE_PLACE:
         return high.bits - (bits & FE__MAGNITUDE);
     case FE__RANGE_LOCKS:
     case FE__RANGE_COUNT:

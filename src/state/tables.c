@@ -4,17 +4,26 @@
 #include "state/table.h"
 
 #include "collision/form/sound.h"
+#include "core/ranges.h"
 #include "state/numbers.h"
 #include "state/rows.h"
 #include "world/encounter.h"
 
 #include <float.h>
 
+// m. Parts of a compound of a body lie within FE_MAX_LOCAL thrice, and are FE_MAX_LENGTH long: less than this by far.
+// Its square, and its product with a speed, stay inside a float.
+#define FARTHEST_IN_BODY (100.0 * (double)FE_MAX_LOCAL)
+
 const fe__range fe__ranges[FE__RANGES] = {
     [FE__RANGE_ANY] = {0.0, 0.0},
     [FE__RANGE_GROWING] = {0.0, 0.0},
     [FE__RANGE_FINITE] = {-(double)FLT_MAX, (double)FLT_MAX},
     [FE__RANGE_POSITIVE] = {0.0, (double)FLT_MAX},
+    [FE__RANGE_SPEED] = {-(double)FE_MOST_SPEED, (double)FE_MOST_SPEED},
+    [FE__RANGE_SWIFT] = {0.0, 4.0 * (double)FE_MOST_SPEED * FARTHEST_IN_BODY},
+    [FE__RANGE_PLACE] = {-FARTHEST_IN_BODY, FARTHEST_IN_BODY},
+    [FE__RANGE_LENGTH] = {0.0, FARTHEST_IN_BODY},
     [FE__RANGE_UNIT] = {-1.001, 1.001},
     [FE__RANGE_SECONDS] = {0.0, 1e9},
     [FE__RANGE_BOOL] = {0.0, 1.0},
@@ -59,8 +68,8 @@ const fe__range fe__ranges[FE__RANGES] = {
 // freed in it is given again in it
 #define BODY(T, S, R, P) \
     R(T, centre_high) R(T, centre_low) /* of centre */ \
-    S(T, speed, F32, POSITIVE) S(T, rotation, F32, UNIT) S(T, local_centre, F32, FINITE) S(T, reach, F32, POSITIVE) \
-    S(T, velocity, F32, FINITE) S(T, inverse_mass, F32, POSITIVE) S(T, spin, F32, FINITE) S(T, lock_bits, F32, LOCKS) \
+    S(T, speed, F32, SWIFT) S(T, rotation, F32, UNIT) S(T, local_centre, F32, PLACE) S(T, reach, F32, LENGTH) \
+    S(T, velocity, F32, SPEED) S(T, inverse_mass, F32, POSITIVE) S(T, spin, F32, SPEED) S(T, lock_bits, F32, LOCKS) \
     S(T, force, F32, FINITE) S(T, linear_damping, F32, POSITIVE) S(T, torque, F32, FINITE) \
     S(T, angular_damping, F32, POSITIVE) S(T, inertia, F32, POSITIVE) S(T, mass, F32, POSITIVE) \
     S(T, inertia_axes, F32, UNIT) S(T, gravity_scale, F32, FINITE) S(T, thickness, F32, POSITIVE) \
@@ -80,7 +89,7 @@ const fe__range fe__ranges[FE__RANGES] = {
 #define SHAPE(T, S, R, P) \
     S(T, layer, U32, ANY) S(T, mask, U32, ANY) S(T, flags, U32, ANY) S(T, body, I32, INDEX) \
     R(T, pose) /* of the body's and its own */ R(T, form) /* a table of its own */ \
-    S(T, local_position, F32, FINITE) S(T, local_rotation, F32, UNIT) P(4) \
+    S(T, local_position, F32, PLACE) S(T, local_rotation, F32, UNIT) P(4) \
     S(T, material.static_friction, F32, POSITIVE) S(T, material.dynamic_friction, F32, POSITIVE) \
     S(T, material.restitution, F32, POSITIVE) S(T, material.rolling_resistance, F32, POSITIVE) \
     S(T, material.spinning_resistance, F32, POSITIVE) S(T, material.friction_combine, I32, INDEX) \

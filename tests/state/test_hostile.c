@@ -219,6 +219,24 @@ static void each_shape_gets_its_asset_once(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// Faster than a step leaves any body, it would be nowhere within the next
+static void a_speed_beyond_all_bounds_is_refused(void **state)
+{
+    (void)state;
+    enum { AT_VELOCITY = 36, AT_SPIN = 52 };
+    const float least_refused = 1.0001e7f;
+    fe_world *world = make_scene(&script_brief, 40);
+    for (int32_t at = AT_VELOCITY; at <= AT_SPIN; at += AT_SPIN - AT_VELOCITY) {
+        for (int32_t k = 0; k < 6; ++k) {
+            bytes b = save(world);
+            float speed = k < 3 ? least_refused : -3e36f;
+            memcpy(row_of(b, FE__TABLE_BODIES, 1) + at + 4 * (k % 3), &speed, sizeof speed);
+            expect_refused(world, b, at == AT_SPIN ? "spin is " : "velocity is ");
+        }
+    }
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
 enum { AT_NODES = 0, AT_CAPACITY = 4, AT_DEAD = 8, AT_PROMISED = 16 }; // in a tree's row
 
 // Nodes behind the others, with a parent and eight shapes each, which are counted as dead: building anew would take
@@ -318,6 +336,7 @@ int main(void)
         cmocka_unit_test(only_what_says_so_is_skipped),
         cmocka_unit_test(an_asset_that_may_be_skipped_is_skipped),
         cmocka_unit_test(each_shape_gets_its_asset_once),
+        cmocka_unit_test(a_speed_beyond_all_bounds_is_refused),
         cmocka_unit_test(nodes_that_nobody_meets_are_refused),
         cmocka_unit_test(a_tree_has_no_room_for_millions),
         cmocka_unit_test(brief_under_random_numbers),
