@@ -9,7 +9,7 @@
 #define FE_MAX_TURN 64.0f       // rad, of a query: ten turns. What a sweep costs grows with them
 #define FE_MAX_LOCAL 1e6f       // m, in a body's frame
 #define FE_MAX_SPEED 1e6f       // m/s, rad/s, m/s2
-#define FE_MOST_SPEED 1e7f    // m/s, rad/s: a body that a step leaves faster has overflowed
+#define FE_MOST_SPEED 1e7f      // m/s, rad/s: a body that a step leaves faster has overflowed
 #define FE_MAX_FORCE 1e15f      // N, N m, N s, N m s
 #define FE_MAX_VALUE 1e6f       // dampings, hertz, ratios, frictions...
 #define FE_LEAST_VALUE 1e-6f    // of what must be above 0

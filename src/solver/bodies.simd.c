@@ -36,8 +36,9 @@ FE_INLINE void store_moved(fe__solver *s, int32_t i, wide3 spin)
 }
 
 // ---- records to lines, once per step --------------------------------------------------------------------------------
-enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
-#define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
+#define BODY_QUAD(field) w_gather_from(body, offsetof(fe__body, field))
+
+static const fe__body nobody; // what padding reads
 
 // world axes of the principal inertia, and its inverse R I^-1 R^T
 FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
@@ -91,19 +92,20 @@ static float gyroscopic_kind(const fe__body *body)
     return body->joint_count ? FE__GYROSCOPIC_JOINED : FE__GYROSCOPIC_FREE;
 }
 
-FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, const fe__step_constants *c)
+FE_INLINE void load_block(fe__solver *s, int32_t line, const fe__step_constants *c)
 {
-    _Alignas(64) int32_t index[FE_W];
+    void *body[FE_W];
     _Alignas(64) float scale[FE_W], gyroscopic[FE_W], is_there[FE_W];
     int locked = 0, joined = 0;
     for (int i = 0; i < FE_W; ++i) {
-        int32_t body = s->body_of_line[line + i];
-        index[i] = body < 0 ? 0 : body;
-        is_there[i] = body < 0 ? 0.0f : 1.0f;
-        scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
-        gyroscopic[i] = body < 0 ? FE__GYROSCOPIC_NONE : gyroscopic_kind(bodies + body);
+        fe__body *b = s->body_of_line[line + i];
+        is_there[i] = b ? 1.0f : 0.0f;
+        if (!b) b = (fe__body *)(uintptr_t)&nobody;
+        body[i] = b;
+        scale[i] = b->type == FE_BODY_DYNAMIC ? b->gravity_scale : 0.0f;
+        gyroscopic[i] = gyroscopic_kind(b);
         joined |= gyroscopic[i] == FE__GYROSCOPIC_JOINED;
-        locked |= body >= 0 && bodies[body].lock_bits != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
+        locked |= b->lock_bits != 0.0f && b->type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
@@ -127,16 +129,15 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     if (joined) store_moved(s, line, w_sub(w_xyz(w), w_xyz(BODY_QUAD(relaxed))));
     for (int k = 0; k < FE_W && locked; ++k) {
-        const fe__body *body = bodies + index[k];
+        const fe__body *b = body[k];
         const float *a = s->axes[line + k].rotation;
-        if (is_there[k] != 0.0f && body->locked && body->type == FE_BODY_DYNAMIC)
-            lock_line(s, body, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
+        if (b->locked && b->type == FE_BODY_DYNAMIC) lock_line(s, b, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
     }
 }
 
-static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c)
+static void load(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
-    for (int32_t i = first; i < first + count; i += FE_W) load_block(s, bodies, i, c);
+    for (int32_t i = first; i < first + count; i += FE_W) load_block(s, i, c);
 }
 
 // ---- gyroscopic torque ----------------------------------------------------------------------------------------------

@@ -34,8 +34,7 @@ enum {
 
 typedef struct chain {
     fe__solver *s;
-    const fe__body *bodies;
-    const uint64_t *serials; // by record of the points, two each
+    const fe__records *of; // by home
     const fe__kernels *kernels;
     const fe__group *groups;
     int32_t group_count;
@@ -102,11 +101,17 @@ static void find_touches(chain *k, int32_t near)
 }
 
 // ---- in order of time, of two at once in that of the pairs' creation ------------------------------------------------
+// Of what two worlds have at once, either comes first: they share no body
+static const uint64_t *serials_of(const chain *k, const fe__touch *t)
+{
+    const fe__lane *lane = k->s->lanes + t->lane;
+    return k->of[lane->home].serials + 2 * (int64_t)lane->points;
+}
+
 // Lanes tell nothing: which of a group's contacts is where depends on when the graph was built.
 static int32_t is_younger(const chain *k, const fe__touch *p, const fe__touch *q)
 {
-    const uint64_t *a = k->serials + 2 * (int64_t)k->s->lanes[p->lane].points,
-                   *b = k->serials + 2 * (int64_t)k->s->lanes[q->lane].points;
+    const uint64_t *a = serials_of(k, p), *b = serials_of(k, q);
     return a[0] > b[0] || (a[0] == b[0] && a[1] > b[1]);
 }
 
@@ -259,7 +264,7 @@ static int32_t is_held(const chain *k, int32_t line, float change)
 {
     const fe__velocity_line *now = k->s->velocity + line;
     const fe__start_line *start = k->s->start + line;
-    if (k->bodies[k->s->body_of_line[line]].joint_count)
+    if (k->s->body_of_line[line]->joint_count)
         return speed_of(now->v) > (1.0f + GAINED) * speed_of(start->v) + GAINED_SPEED + JOINED_SHARE * change;
     float most = (1.0f + GAINED) * sqrtf(energy_of(k->s, line, start->v, start->w)) + GAINED_SPEED;
     return energy_of(k->s, line, now->v, now->w) > most * most;
@@ -336,14 +341,13 @@ static void bounce_free(chain *k)
     }
 }
 
-void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodies, const uint64_t *serials,
-                 const fe__batch *b, unsigned char *rows, const fe__step_constants *c)
+void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__records *of, const fe__batch *b,
+                 unsigned char *rows, const fe__step_constants *c)
 {
     if (!atomic_load_explicit(&s->chained, memory_order_relaxed)) return;
     const fe__group *groups = s->groups + b->first_group + b->joint_groups;
     chain k = {.s = s,
-               .bodies = bodies,
-               .serials = serials,
+               .of = of,
                .kernels = kernels,
                .groups = groups,
                .group_count = b->group_count - b->joint_groups,

@@ -4,8 +4,8 @@
 #include "solver/solver.h"
 
 // After the bounces of contacts that are alone with their bodies: those of a batch that are not, one after another.
-// Called by one worker. `rows`: of the batch; `serials`: two for each record of points.
-void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodies, const uint64_t *serials,
-                 const fe__batch *b, unsigned char *rows, const fe__step_constants *c);
+// Called by one worker. `rows`: of the batch.
+void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__records *of, const fe__batch *b,
+                 unsigned char *rows, const fe__step_constants *c);
 
 #endif

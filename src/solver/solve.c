@@ -57,10 +57,7 @@ typedef struct program {
 typedef struct job {
     fe__solver *s;
     const fe__kernels *k;
-    const fe__body *bodies;
-    fe__contact_arrays of;
-    const uint64_t *serials; // by record of the points, two each
-    const fe__joints *joints;
+    const fe__records *of; // by home
     paced paces[FE__PACES];
     const fe__batch *batch; // large
     program program;
@@ -197,8 +194,8 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
 {
     float dt = (float)c->substeps * c->h;
     for (int32_t i = first; i < first + count; ++i) {
-        const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
-        int32_t fast = j->s->body_of_line[i] >= 0 && body->speed * dt > body->thickness;
+        const fe__body *body = j->s->body_of_line[i];
+        int32_t fast = body && body->speed * dt > body->thickness;
         j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
         if (fast) j->s->trail_of[i] = atomic_fetch_add_explicit(&j->s->trails, 1, memory_order_relaxed);
     }
@@ -221,7 +218,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     int32_t first = b->first_line + block * LINES_IN_BLOCK,
             count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
     const fe__body_kernels *k = j->k->body;
-    if (verb == LOAD) k->load(j->s, j->bodies, first, count, c);
+    if (verb == LOAD) k->load(j->s, first, count, c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
     if (verb == LOAD) begin_trails(j, first, count, c);
     if (verb == BALANCE) k->balance_spins(j->s, first, count, c);
@@ -239,7 +236,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
     case PREPARE:
-        k->prepare(j->s, j->bodies, j->joints, lanes, row, count, g->sides, c);
+        k->prepare(j->s, j->of, lanes, row, count, g->sides, c);
         break;
     case SOLVE:
         k->solve(j->s, row, count, g->sides, c);
@@ -248,7 +245,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
         k->relax(j->s, row, count, g->sides, c);
         break;
     case STORE:
-        k->store(j->s, j->joints, lanes, row, count, c);
+        k->store(j->s, j->of, lanes, row, count, c);
         break;
     case LOAD:
     case BALANCE:
@@ -266,8 +263,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
 static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__tree_job trees = {.solver = j->s,
-                                .bodies = j->bodies,
-                                .joints = j->joints,
+                                .of = j->of,
                                 .trees = j->s->trees + g->lane,
                                 .count = g->trees,
                                 .rows = rows,
@@ -293,11 +289,12 @@ static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lan
 {
     for (const fe__lane *lane = lanes, *end = lanes + rows * g->width; lane < end; ++lane) {
         if (!lane->contact) continue;
-        fe__points *q = j->of.points + lane->points;
+        const fe__records *of = j->of + lane->home;
+        fe__points *q = of->points + lane->points;
         for (int k = 0; k < FE__POINTS; ++k) q->normal_impulse[k] *= scale;
         for (int k = 0; k < 3; ++k) q->friction_impulse[k] *= scale;
         q->twist_impulse *= scale;
-        for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->of.extras[lane->points].rolling_impulse[k] *= scale;
+        for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) of->extras[lane->points].rolling_impulse[k] *= scale;
     }
 }
 
@@ -317,19 +314,19 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
     case PREPARE:
-        k->prepare[g->kind](j->s, &j->of, lanes, row, count, c);
+        k->prepare[g->kind](j->s, j->of, lanes, row, count, c);
         break;
     case SOLVE:
-        k->solve[g->kind](j->s, &j->of, lanes, row, count, c);
+        k->solve[g->kind](j->s, j->of, lanes, row, count, c);
         break;
     case RELAX:
-        k->relax[g->kind](j->s, &j->of, lanes, row, count, c);
+        k->relax[g->kind](j->s, j->of, lanes, row, count, c);
         break;
     case BOUNCE:
         k->bounce[g->kind](j->s, row, count, c);
         break;
     case STORE:
-        atomic_fetch_add_explicit(&j->s->mixed, k->store[g->kind](&j->of, lanes, row, count), memory_order_relaxed);
+        atomic_fetch_add_explicit(&j->s->mixed, k->store[g->kind](j->of, lanes, row, count), memory_order_relaxed);
         if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
@@ -353,7 +350,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         return;
     }
     if (p->verb == PASS_ON) {
-        fe__pass_on(j->s, j->k, j->bodies, j->serials, b, rows, c);
+        fe__pass_on(j->s, j->k, j->of, b, rows, c);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
@@ -401,7 +398,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         }
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
-        if (b->bounces) fe__pass_on(j->s, j->k, j->bodies, j->serials, b, rows, c);
+        if (b->bounces) fe__pass_on(j->s, j->k, j->of, b, rows, c);
         run_all_trees(j, b, RECEIVE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
@@ -497,11 +494,11 @@ static uint32_t flag_of_strain(fe__solver *s, const fe__batch *b, const fe__body
 }
 
 // the marks of the lines to the bodies, and all that is true of an island's bodies to `found`
-static void note_marks(fe__solver *s, const fe__batch *b, fe__body *bodies, uint32_t *found, uint32_t joined)
+static void note_marks(fe__solver *s, const fe__batch *b, uint32_t *found, uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
-        fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
-        if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
+        fe__body *body = s->body_of_line[line];
+        if (!body || body->type != FE_BODY_DYNAMIC) continue;
         float mark = s->inertia[line].mark;
         uint32_t flag = 0;
         if (mark == (float)FE__STRAINED) flag = flag_of_strain(s, b, body);
@@ -512,12 +509,11 @@ static void note_marks(fe__solver *s, const fe__batch *b, fe__body *bodies, uint
     }
 }
 
-static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body *bodies, const uint32_t *found,
-                        uint32_t joined)
+static int32_t has_pace(const fe__solver *s, const fe__batch *b, const uint32_t *found, uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
-        const fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
-        if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
+        const fe__body *body = s->body_of_line[line];
+        if (!body || body->type != FE_BODY_DYNAMIC) continue;
         if (fe__pace_of(found[body->island], (found[body->island] & joined) != 0) != b->pace) return 0;
     }
     return 1;
@@ -525,7 +521,7 @@ static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body 
 
 // Strained and stretched islands of the next step are those with a body that was in this one; another set of them is
 // another graph.
-static void note_strain(fe__solver *s, fe__body *bodies)
+static void note_strain(fe__solver *s)
 {
     const uint32_t joined = 1; // a bit that is none of the two flags
     int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed) | s->burdened;
@@ -535,10 +531,10 @@ static void note_strain(fe__solver *s, fe__body *bodies)
     s->burdened = 0;
     memset(found, 0, sizeof *found * (size_t)s->island_count);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
-        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, bodies, found, joined);
+        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, found, joined);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
         if (i >= s->large_count || s->batches[i].joint_count)
-            s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
+            s->graph_changed |= !has_pace(s, s->batches + i, found, joined);
 }
 
 // A group has one row at most in which loose contacts lie beside others, when it is built. As loads come and go there
@@ -559,11 +555,10 @@ static void set_constants(job *j, const fe__step_constants *constants)
     }
 }
 
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies,
-               const fe__contact_arrays *of, const uint64_t *serials, const fe__joints *joints,
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__records *of,
                const fe__step_constants constants[FE__PACES])
 {
-    job j = {.s = s, .k = kernels, .bodies = bodies, .of = *of, .serials = serials, .joints = joints};
+    job j = {.s = s, .k = kernels, .of = of};
     atomic_store(&s->engaged, 0);
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     set_constants(&j, constants);
@@ -582,6 +577,6 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
-    note_strain(s, bodies);
+    note_strain(s);
     note_mixed(s, kernels->width);
 }

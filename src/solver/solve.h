@@ -4,9 +4,8 @@
 #include "solver/solver.h"
 
 // All substeps of all batches. The lines then hold what the step did; contacts and joints their impulses.
-// `serials`: of the pairs, two for each record of points. `constants`: of each pace.
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies,
-               const fe__contact_arrays *of, const uint64_t *serials, const fe__joints *joints,
+// `constants`: of each pace.
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__records *of,
                const fe__step_constants constants[FE__PACES]);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 

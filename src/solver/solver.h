@@ -179,7 +179,24 @@ typedef struct fe__lane {
     int32_t contact;        // or joint. 0 is none: record 0 is zeros
     int32_t points;         // of the contact
     int32_t line_a, line_b; // FE__STATIC_LINE for static
+    int32_t home;           // among the fe__records
 } fe__lane;
+
+// What lanes name: records of one world. Worlds that are solved together have one each
+typedef struct fe__records {
+    const fe__contact *contacts;
+    fe__points *points;
+    fe__extra *extras;       // NULL while no row is special
+    const uint64_t *serials; // of the pairs, two for each record of points
+    fe__body *bodies;
+    const fe__joints *joints;
+    int32_t first_place; // among fe__solver.places: of the forest's first link
+} fe__records;
+
+// A tree of the forest of such a world
+typedef struct fe__tree_name {
+    int32_t home, tree;
+} fe__tree_name;
 
 enum {
     FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
@@ -240,7 +257,7 @@ typedef struct fe__solver {
     fe__axes_line *axes;
     float (*moved_spin)[4]; // by line of FE__GYROSCOPIC_JOINED: by what it rotated in the last substep, rad/s, 0
     int32_t line_count, line_capacity[7];
-    int32_t *body_of_line; // -1: padding
+    fe__body **body_of_line; // NULL: padding
     int32_t body_of_line_capacity;
 
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
@@ -274,7 +291,7 @@ typedef struct fe__solver {
     int32_t lane_count, lane_capacity;
     fe__tree_place *places; // by link of the forest; of trees that are awake
     int32_t place_capacity;
-    int32_t *trees; // that are awake, those of a group one after another
+    fe__tree_name *trees; // that are awake, those of a group one after another
     int32_t tree_count, tree_capacity;
     fe__pass *passes; // of the large batch at hand
     int32_t pass_capacity;
@@ -306,12 +323,12 @@ typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
     // contacts to rows; the stored impulses go to the bodies. Rows of contacts without any are put off: solve and relax
     // prepare those that turn out to be needed
-    void (*prepare[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
                                    int32_t count, const fe__step_constants *c);
-    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
-                                 int32_t count, const fe__step_constants *c);
-    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
-                                 int32_t count, const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                                 const fe__step_constants *c);
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                                 const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     // touches whose bodies have another one, to `out`; `near`: contacts without impulse of bodies in a chain. `lane`:
     // the first. How many
@@ -320,18 +337,17 @@ typedef struct fe__contact_kernels {
     int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, uint32_t lanes, fe__touch_act act,
                                   const fe__step_constants *c); // lanes of the row
     // returns how many rows have loose contacts and others
-    int32_t (*store[FE__ROW_KINDS])(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows,
-                                    int32_t count);
+    int32_t (*store[FE__ROW_KINDS])(const fe__records *of, const fe__lane *lanes, const void *rows, int32_t count);
 } fe__contact_kernels;
 
 // The same for one kind of part of joints. `sides`: FE__MOVES_* of all lanes
 typedef struct fe__joint_kernel {
     int32_t row_size;
-    void (*prepare)(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
-                    int32_t count, int32_t sides, const fe__step_constants *c);
+    void (*prepare)(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                    int32_t sides, const fe__step_constants *c);
     void (*solve)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
     void (*relax)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
-    void (*store)(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+    void (*store)(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows, int32_t count,
                   const fe__step_constants *c);
 } fe__joint_kernel;
 
@@ -358,7 +374,7 @@ typedef struct fe__joint_kernels {
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH
 typedef struct fe__body_kernels {
-    void (*load)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*load)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*balance_spins)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);

@@ -105,6 +105,16 @@ static float approach_of(const fe_world *w, int32_t pair)
     return most;
 }
 
+static fe__records records_of(const fe_world *w)
+{
+    return (fe__records){.contacts = w->contacts,
+                         .points = w->points,
+                         .extras = w->extras,
+                         .serials = w->point_serials,
+                         .bodies = w->bodies,
+                         .joints = &w->joints};
+}
+
 void fe__solve_islands(fe__step *step)
 {
     fe_world *w = step->world;
@@ -115,8 +125,8 @@ void fe__solve_islands(fe__step *step)
     }
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);
-    const fe__contact_arrays of = {w->contacts, w->points, w->extras};
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, &of, w->point_serials, &w->joints, paces);
+    const fe__records of = records_of(w);
+    fe__solve(&w->solver, w->kernels, &w->workers, &of, paces);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }

@@ -49,7 +49,7 @@ static void count(const fe__step *step)
         for (int32_t g = b->first_group; g < b->first_group + b->group_count; ++g) {
             if (s->groups[g].kind != FE__TREE_KIND)
                 rows += s->groups[g].rows;
-            else if (w->joints.forest.trees[s->trees[s->groups[g].lane]].kind != FE__TREE_LIGHT)
+            else if (w->joints.forest.trees[s->trees[s->groups[g].lane].tree].kind != FE__TREE_LIGHT)
                 c->trees += s->groups[g].trees;
             colours += g == b->first_group || s->groups[g].colour != s->groups[g - 1].colour;
         }

@@ -181,8 +181,8 @@ static inline void rig_step(rig *r)
     r->last_h = h;
     if (!r->built) rig_build(r);
     const fe__step_constants paces[FE__PACES] = {c, c, c};
-    const fe__contact_arrays none = {NULL, NULL, NULL};
-    fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, &none, NULL, &r->joints, paces);
+    const fe__records of = {.bodies = r->bodies, .joints = &r->joints};
+    fe__solve(&r->solver, r->kernels, &r->workers, &of, paces);
     for (int32_t i = 1; i < r->body_count; ++i) {
         fe__body *b = r->bodies + i;
         rig_follow(b, r->solver.velocity + b->line, r->solver.motion + b->line);

@@ -36,7 +36,8 @@ typedef struct rig {
     lock_row locks[MOST_LINKS];
     fe__sym3 inertia[MOST_LINKS + 1];
     int32_t opens;    // what is said of every lock
-    int32_t trees[1]; // 0
+    fe__tree_name trees[1];
+    fe__records records; // 0
     bundle head;      // and, right behind it, the nodes
     tree_node nodes[MOST_LINKS];
     fe__tree_job job;
@@ -114,9 +115,9 @@ static void begin(uint32_t seed)
     for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
     the.joints.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
     the.tree.kind = FE__TREE_HEAVY;
+    the.records = (fe__records){.bodies = the.bodies, .joints = &the.joints};
     the.job = (fe__tree_job){.solver = &the.solver,
-                             .bodies = the.bodies,
-                             .joints = &the.joints,
+                             .of = &the.records,
                              .trees = the.trees,
                              .count = 1,
                              .rows = (unsigned char *)the.locks,

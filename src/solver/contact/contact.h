@@ -93,11 +93,4 @@ typedef struct fe__extra {
     float rolling_impulse[3];  // on B, world, N m s
 } fe__extra;
 
-// Where contacts and points of a world lie. There may be no extras while no row is special
-typedef struct fe__contact_arrays {
-    fe__contact *contacts;
-    fe__points *points;
-    fe__extra *extras;
-} fe__contact_arrays;
-
 #endif

@@ -136,7 +136,33 @@ FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
     return kind & FE__ROW_PAIR ? w_dot(m->a, n->spin_a) + b : b;
 }
 
-enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), POINTS_STRIDE = sizeof(fe__points) / sizeof(float) };
+// Where the records of a row's contacts are
+typedef struct {
+    void *contact[FE_W], *points[FE_W];
+} row_contacts;
+
+FE_INLINE const fe__contact *contact_of(const fe__records *of, const fe__lane *lane)
+{
+    return of[lane->home].contacts + lane->contact;
+}
+FE_INLINE fe__points *points_of(const fe__records *of, const fe__lane *lane)
+{
+    return of[lane->home].points + lane->points;
+}
+
+FE_INLINE row_contacts name_contacts(const fe__records *of, const fe__lane *lane)
+{
+    row_contacts r;
+    for (int i = 0; i < FE_W; ++i) {
+        r.contact[i] = (void *)(uintptr_t)contact_of(of, lane + i);
+        r.points[i] = points_of(of, lane + i);
+    }
+    return r;
+}
+
+#define CONTACT_QUAD(field) w_gather_from(r->contact, offsetof(fe__contact, field))
+FE_INLINE size_t point_offset(int i) { return offsetof(fe__points, point) + (size_t)i * sizeof(fe__contact_arm); }
+#define POINTS_QUAD(field) w_gather_from(r->points, offsetof(fe__points, field))
 
 // a point that opened to twice the speculative distance still counts a little for the friction centre: the weights
 // never all vanish
@@ -150,10 +176,10 @@ enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), POINTS_STRIDE = siz
 #define REGULAR 1e-6f
 
 // what a row is made of
-FE_INLINE void prefetch_contact(const fe__contact_arrays *of, const fe__lane *lane)
+FE_INLINE void prefetch_contact(const fe__records *of, const fe__lane *lane)
 {
-    __builtin_prefetch(of->contacts + lane->contact);
-    fe__fetch(of->points + lane->points, sizeof *of->points);
+    __builtin_prefetch(contact_of(of, lane));
+    fe__fetch(points_of(of, lane), sizeof(fe__points));
 }
 
 // FE__AHEAD, by a contact's tolerance
@@ -178,15 +204,15 @@ static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t
 }
 
 // Lanes of record 0 are padding: it stays zero and is written by nobody
-FE_INLINE void store_lanes(fe__points *points, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
+FE_INLINE void store_lanes(const fe__records *of, const fe__lane *lanes, wide4 normal, wide4 friction, wide4 total)
 {
     _Alignas(64) float n[FE_W][4], f[FE_W][4], t[FE_W][4];
     w_scatter(n[0], 4, w_in_order, normal);
     w_scatter(f[0], 4, w_in_order, friction);
     w_scatter(t[0], 4, w_in_order, total);
     for (int i = 0; i < FE_W; ++i) {
-        if (!index[i]) continue;
-        fe__points *q = points + index[i];
+        if (!lanes[i].points) continue;
+        fe__points *q = points_of(of, lanes + i);
         *(quad *)q->normal_impulse = *(const quad *)n[i];
         *(quad *)q->friction_impulse = *(const quad *)f[i];
         *(quad *)q->total_impulse = *(const quad *)t[i];

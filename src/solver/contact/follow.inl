@@ -236,16 +236,14 @@ FE_INLINE void NAMED(move_points)(ROW *row, const motion *m, wide3 n, wide_mask 
 
 // A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to
 // where the bodies are. Until then its points on A and on B are apart.
-FE_SMALL static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact_arrays *of,
-                                                                  const int32_t *index, const int32_t *points,
-                                                                  wide_mask lanes, int kind)
+FE_SMALL static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const row_contacts *r, wide_mask lanes,
+                                                                  int kind)
 {
-    const fe__contact *m = of->contacts;
     wide zero = w_set(0.0f);
     wide3 n = load3(row->normal), span = load3(row->found_span);
-    motion back = {w_zero3(), w_gather(m->found_a, CONTACT_STRIDE, index), w_gather(m->found_b, CONTACT_STRIDE, index)};
+    motion back = {w_zero3(), CONTACT_QUAD(found_a), CONTACT_QUAD(found_b)};
     wide apart[POINTS + 1];
-    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather(of->points->point[i].arm, POINTS_STRIDE, points).w;
+    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather_from(r->points, point_offset(i)).w;
     apart[POINTS] = apart[0];
     NAMED(begin_to_follow)(row, apart, lanes, kind);
     UNROLL for (int i = 0; i <= POINTS; ++i)

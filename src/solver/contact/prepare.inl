@@ -5,20 +5,20 @@
 // is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__points *q, const int32_t *index, wide4 separation, wide count,
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const row_contacts *r, wide4 separation, wide count,
                                       const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
-    wide4 impulse = w_gather(q->normal_impulse, POINTS_STRIDE, index);
+    wide4 impulse = POINTS_QUAD(normal_impulse);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
     wide3 weighted = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *to = row->point + i;
-        wide3 r = w_xyz(w_gather(q->point[i].arm, POINTS_STRIDE, index));
+        wide3 arm = w_xyz(w_gather_from(r->points, point_offset(i)));
         wide_mask there = w_greater(count, w_set((float)i));
-        store3(to->r, r);
+        store3(to->r, arm);
         to->distance = row->separation[i] = separations[i];
         to->mass = w_choose(there, one, zero);
         to->impulse = impulses[i] * c->contact_warm_scale;
@@ -26,7 +26,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__points *q, const int32
         wide weight =
             w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
         sum = sum + weight;
-        weighted = w_add_scaled(weighted, weight, r);
+        weighted = w_add_scaled(weighted, weight, arm);
         apart = apart + weight * separations[i];
     }
     wide inverse = w_inverse_or_zero(sum);
@@ -70,11 +70,11 @@ FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
 }
 
 // Scalar, a lane at a time: special rows are few
-FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras,
-                                      const int32_t *index, const fe__step_constants *c)
+FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__records *of, const fe__lane *lanes,
+                                      const fe__step_constants *c)
 {
     for (int i = 0; i < FE_W; ++i) {
-        const fe__extra *e = extras + index[i];
+        const fe__extra *e = of[lanes[i].home].extras + lanes[i].points;
         const fe__velocity_line *a = s->velocity + x->row.line_a[i], *b = s->velocity + x->row.line_b[i];
         int locks_a = (int)a->lock_bits, locks_b = (int)b->lock_bits;
         for (int k = 0; k < 3; ++k) {
@@ -119,21 +119,18 @@ FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
     NAMED(note_gaps)(row);
 }
 
-FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact_arrays *of,
+FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__records *of,
                                   const fe__step_constants *c, int kind)
 {
-    _Alignas(64) int32_t index[FE_W], points[FE_W];
-    const fe__contact *m = of->contacts;
-    const fe__points *q = of->points;
+    const row_contacts named = name_contacts(of, lane), *r = &named;
     for (int i = 0; i < FE_W; ++i) {
-        index[i] = lane[i].contact, points[i] = lane[i].points;
         row->line_a[i] = lane[i].line_a;
         row->line_b[i] = lane[i].line_b;
     }
     row->inertia_b = gather_inertia(s, row->line_b);
     if (kind & FE__ROW_PAIR) row->inertia_a = gather_inertia(s, row->line_a);
-    wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index), span = w_gather(m->span, CONTACT_STRIDE, index);
-    wide4 surface = w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index);
+    wide4 normal = CONTACT_QUAD(normal), span = CONTACT_QUAD(span);
+    wide4 surface = CONTACT_QUAD(surface);
     row->static_friction = span.w;
     row->dynamic_friction = surface.x;
     row->round_a = surface.y;
@@ -141,23 +138,23 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     store3(row->normal, w_xyz(normal));
     store3(row->span, w_xyz(span));
     store3(row->start_span, w_xyz(span));
-    wide4 found = w_gather(m->found_span, CONTACT_STRIDE, index);
+    wide4 found = CONTACT_QUAD(found_span);
     store3(row->found_span, NAMED(span_found)(row, w_xyz(found), kind));
-    if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, of->extras, points, c);
+    if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, of, lane, c);
 
     pair p = NAMED(gather_pair)(row, s, kind);
     wide3 t1, t2;
     tangents(p.normal, &t1, &t2);
-    wide4 separation = w_gather(q->separation, POINTS_STRIDE, points);
-    store3(row->centre, NAMED(prepare_points)(row, q, points, separation, normal.w, c));
+    wide4 separation = POINTS_QUAD(separation);
+    store3(row->centre, NAMED(prepare_points)(row, r, separation, normal.w, c));
     if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
-    wide4 friction = w_gather(q->friction_impulse, POINTS_STRIDE, points);
+    wide4 friction = POINTS_QUAD(friction_impulse);
     NAMED(prepare_friction)(row, friction, t1, t2, c);
     if (NAMED(can_idle)(kind)) NAMED(note_friction)(row, friction);
     NAMED(prepare_following)(row, p.normal, kind);
     wide_mask ahead = found_ahead(surface.w);
-    if (w_any(ahead)) NAMED(place_ahead)(row, of, index, points, ahead, kind);
+    if (w_any(ahead)) NAMED(place_ahead)(row, r, ahead, kind);
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
@@ -168,13 +165,12 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
 }
 
 // What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
-FE_INLINE int NAMED(may_wait)(const fe__contact_arrays *of, const int32_t *index, const int32_t *points)
+FE_INLINE int NAMED(may_wait)(const row_contacts *r)
 {
-    const fe__points *q = of->points;
-    if (w_any(any_nonzero(w_gather(q->normal_impulse, POINTS_STRIDE, points)))) return 0;
-    if (w_any(any_nonzero(w_gather(q->friction_impulse, POINTS_STRIDE, points)))) return 0;
-    if (w_any(any_nonzero(w_gather(q->total_impulse, POINTS_STRIDE, points)))) return 0;
-    return !w_any(found_ahead(w_gather(&of->contacts->surface.dynamic_friction, CONTACT_STRIDE, index).w));
+    if (w_any(any_nonzero(POINTS_QUAD(normal_impulse)))) return 0;
+    if (w_any(any_nonzero(POINTS_QUAD(friction_impulse)))) return 0;
+    if (w_any(any_nonzero(POINTS_QUAD(total_impulse)))) return 0;
+    return !w_any(found_ahead(CONTACT_QUAD(surface).w));
 }
 
 // Loose contacts come last in a group: where the first is none, few rows are idle
@@ -186,30 +182,26 @@ FE_INLINE int NAMED(begins_loose)(const fe__points *q)
 
 // A row that may stay idle gets what tells so, and is prepared by the first pass in which it is not
 static __attribute__((noinline)) int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__solver *s,
-                                                    const fe__contact_arrays *of, const fe__step_constants *c, int kind)
+                                                    const fe__records *of, const fe__step_constants *c, int kind)
 {
-    _Alignas(64) int32_t index[FE_W], points[FE_W];
-    const fe__contact *m = of->contacts;
-    for (int i = 0; i < FE_W; ++i) index[i] = lane[i].contact, points[i] = lane[i].points;
-    if (!NAMED(may_wait)(of, index, points)) return 0;
+    const row_contacts named = name_contacts(of, lane), *r = &named;
+    if (!NAMED(may_wait)(r)) return 0;
     for (int i = 0; i < FE_W; ++i) row->line_a[i] = lane[i].line_a, row->line_b[i] = lane[i].line_b;
-    wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index);
+    wide4 normal = CONTACT_QUAD(normal);
     store3(row->normal, w_xyz(normal));
-    NAMED(prepare_gap)
-    (row, w_gather(of->points->separation, POINTS_STRIDE, points), normal.w,
-     w_gather(m->found_span, CONTACT_STRIDE, index).w);
+    NAMED(prepare_gap)(row, POINTS_QUAD(separation), normal.w, CONTACT_QUAD(found_span).w);
     row->put_off = 1, row->behind = 0;
     NAMED(note_gaps)(row);
     return NAMED(may_idle)(row, kind) && NAMED(idle_now)(row, s, c, kind);
 }
 
-FE_INLINE void NAMED(prepare)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
-                              int32_t count, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare)(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                              const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(of, lanes + FE_W + j);
-        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(of->points + lanes->points) ||
+        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(points_of(of, lanes)) ||
             !NAMED(put_off)(row, lanes, s, of, c, kind))
             NAMED(prepare_row)(row, lanes, s, of, c, kind);
     }
@@ -217,8 +209,7 @@ FE_INLINE void NAMED(prepare)(fe__solver *s, const fe__contact_arrays *of, const
 
 // Returns how many rows have loose lanes beside others: with a gap, and without a load in this step. What was put off
 // to the end is all zeros already
-FE_INLINE int32_t NAMED(store)(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows, int32_t count,
-                               int kind)
+FE_INLINE int32_t NAMED(store)(const fe__records *of, const fe__lane *lanes, const void *rows, int32_t count, int kind)
 {
     int32_t mixed = 0;
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
@@ -226,9 +217,7 @@ FE_INLINE int32_t NAMED(store)(const fe__contact_arrays *of, const fe__lane *lan
         const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
         if (NAMED(can_idle)(kind) && row->put_off) continue;
         wide zero = w_set(0.0f), impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0}, sum = zero;
-        _Alignas(64) int32_t index[FE_W];
-        for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].points;
-        for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(of->points + lanes[4 * FE_W + j].points, 1);
+        for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(points_of(of, lanes + 4 * FE_W + j), 1);
         UNROLL for (int j = 0; j < POINTS; ++j)
         {
             impulse[j] = row->point[j].impulse, total[j] = row->total[j];
@@ -241,10 +230,13 @@ FE_INLINE int32_t NAMED(store)(const fe__contact_arrays *of, const fe__lane *lan
         // of -0 and +0 the latter: what was put off has it
         wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);
         friction = (wide4){friction.x + zero, friction.y + zero, friction.z + zero, friction.w + zero};
-        store_lanes(of->points, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, friction,
+        store_lanes(of, lanes, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, friction,
                     (wide4){total[0], total[1], total[2], total[3]});
-        for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
-            for (int k = 0; k < 3 && index[j]; ++k) of->extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
+        for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j) {
+            if (!lanes[j].points) continue;
+            fe__extra *e = of[lanes[j].home].extras + lanes[j].points;
+            for (int k = 0; k < 3; ++k) e->rolling_impulse[k] = x->rolling_impulse[k][j];
+        }
     }
     return mixed;
 }

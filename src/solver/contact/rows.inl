@@ -544,7 +544,7 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 FE_INLINE int NAMED(is_late)(const ROW *row) { return row->put_off || row->behind; }
 
 // the row, prepared, with distances from where the bodies are
-FE_SMALL static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact_arrays *of,
+FE_SMALL static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__records *of,
                                                                const fe__lane *lanes, const fe__step_constants *c,
                                                                int kind)
 {
@@ -558,8 +558,8 @@ FE_SMALL static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__sol
     NAMED(find_distances)(row, &p, &m, kind);
 }
 
-FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
-                            int32_t count, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(solve)(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                            const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
@@ -588,8 +588,8 @@ FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, wide gai
     if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
 }
 
-FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
-                            int32_t count, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(relax)(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                            const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
@@ -653,40 +653,40 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
 }
 
 // ---- the kernels of each kind ---------------------------------------------------------------------------------------
-#define INSTANCE(kind_name, kind)                                                                                  \
-    static void NAMED(prepare_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,    \
-                                           void *rows, int32_t count, const fe__step_constants *c)                 \
-    {                                                                                                              \
-        NAMED(prepare)(s, of, lanes, rows, count, c, kind);                                                        \
-    }                                                                                                              \
-    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,      \
-                                         void *rows, int32_t count, const fe__step_constants *c)                   \
-    {                                                                                                              \
-        NAMED(solve)(s, of, lanes, rows, count, c, kind);                                                          \
-    }                                                                                                              \
-    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,      \
-                                         void *rows, int32_t count, const fe__step_constants *c)                   \
-    {                                                                                                              \
-        NAMED(relax)(s, of, lanes, rows, count, c, kind);                                                          \
-    }                                                                                                              \
-    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
-    {                                                                                                              \
-        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                        \
-    }                                                                                                              \
-    static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane,  \
-                                              int32_t near, const fe__step_constants *c, fe__touch *out)           \
-    {                                                                                                              \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, c, out, kind) : 0;              \
-    }                                                                                                              \
-    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, uint32_t lanes, fe__touch_act act,            \
-                                          const fe__step_constants *c)                                             \
-    {                                                                                                              \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lanes_of(lanes), act, c, kind) : 0;                     \
-    }                                                                                                              \
-    static int32_t NAMED(store_##kind_name)(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows, \
-                                            int32_t count)                                                         \
-    {                                                                                                              \
-        return NAMED(store)(of, lanes, rows, count, kind);                                                         \
+#define INSTANCE(kind_name, kind)                                                                                    \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, const fe__records *of, const fe__lane *lanes, void *rows, \
+                                           int32_t count, const fe__step_constants *c)                               \
+    {                                                                                                                \
+        NAMED(prepare)(s, of, lanes, rows, count, c, kind);                                                          \
+    }                                                                                                                \
+    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__records *of, const fe__lane *lanes, void *rows,   \
+                                         int32_t count, const fe__step_constants *c)                                 \
+    {                                                                                                                \
+        NAMED(solve)(s, of, lanes, rows, count, c, kind);                                                            \
+    }                                                                                                                \
+    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__records *of, const fe__lane *lanes, void *rows,   \
+                                         int32_t count, const fe__step_constants *c)                                 \
+    {                                                                                                                \
+        NAMED(relax)(s, of, lanes, rows, count, c, kind);                                                            \
+    }                                                                                                                \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)    \
+    {                                                                                                                \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                          \
+    }                                                                                                                \
+    static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane,    \
+                                              int32_t near, const fe__step_constants *c, fe__touch *out)             \
+    {                                                                                                                \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, c, out, kind) : 0;                \
+    }                                                                                                                \
+    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, uint32_t lanes, fe__touch_act act,              \
+                                          const fe__step_constants *c)                                               \
+    {                                                                                                                \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lanes_of(lanes), act, c, kind) : 0;                       \
+    }                                                                                                                \
+    static int32_t NAMED(store_##kind_name)(const fe__records *of, const fe__lane *lanes, const void *rows,          \
+                                            int32_t count)                                                           \
+    {                                                                                                                \
+        return NAMED(store)(of, lanes, rows, count, kind);                                                           \
     }
 
 INSTANCE(fixed, 0)

@@ -15,7 +15,7 @@ fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int3
     int32_t dummy = batch->first_line + (like.kind < FE__ROW_KINDS ? like.kind : FE__ROW_KINDS - 1 + like.sides);
     *g = like;
     g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + like.width - 1) / like.width;
-    for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, 0, dummy, dummy};
+    for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, 0, dummy, dummy, 0};
     s->lane_count += g->rows * g->width;
     // a wide row may come after thin ones
     batch->row_bytes += g->rows * (g->width < b->width ? fe__whole_blocks(row_size) : row_size);

@@ -23,7 +23,7 @@ static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int
 static fe__lane joint_lane(const fe__builder *b, int32_t joint)
 {
     const fe__joint *j = b->in->joints->joints + joint;
-    return (fe__lane){joint, 0, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
+    return (fe__lane){joint, 0, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b), 0};
 }
 
 // joints beyond the colours of a crowded body, sorted by creation: their number
@@ -73,7 +73,7 @@ static void open_tree(fe__builder *b, int32_t link)
     if (rootless)
         s->places[first] =
             (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
-    s->trees[s->tree_count++] = l->tree;
+    s->trees[s->tree_count++] = (fe__tree_name){0, l->tree};
 }
 
 // those of one form one after another
@@ -82,9 +82,9 @@ static void sort_trees(fe__solver *s, const fe__forest *f, int32_t first)
     fe__sort_item *items = s->sort_items;
     int32_t n = s->tree_count - first;
     for (int32_t i = 0; i < n; ++i)
-        items[i] = (fe__sort_item){f->trees[s->trees[first + i]].form, s->trees[first + i], 0};
+        items[i] = (fe__sort_item){f->trees[s->trees[first + i].tree].form, s->trees[first + i].tree, 0};
     fe__sort_keys(items, n, items + n);
-    for (int32_t i = 0; i < n; ++i) s->trees[first + i] = items[i].value;
+    for (int32_t i = 0; i < n; ++i) s->trees[first + i].tree = items[i].value;
 }
 
 // The trees of a batch from `first` on, as many side by side as there are lanes
@@ -96,7 +96,7 @@ static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const f
     sort_trees(s, f, first);
     for (int32_t i = first, last; i < s->tree_count; i = last) {
         for (last = i + 1; last < s->tree_count && last - i < widest; ++last)
-            if (!fe__trees_are_alike(f, s->trees[i], s->trees[last])) break;
+            if (!fe__trees_are_alike(f, s->trees[i].tree, f, s->trees[last].tree)) break;
         batch->row_bytes = fe__whole_blocks(batch->row_bytes);
         s->groups[s->group_count++] = (fe__group){.width = b->width,
                                                   .kind = FE__TREE_KIND,
@@ -105,7 +105,8 @@ static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const f
                                                   .rows = 1,
                                                   .trees = last - i,
                                                   .offset = batch->row_bytes};
-        batch->row_bytes += fe__forest_bytes(fe__forest_kernels_of(kernels, last - i), f->trees[s->trees[i]].count);
+        batch->row_bytes +=
+            fe__forest_bytes(fe__forest_kernels_of(kernels, last - i), f->trees[s->trees[i].tree].count);
         ++batch->group_count, ++batch->tree_groups;
     }
 }

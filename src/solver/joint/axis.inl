@@ -29,13 +29,12 @@ typedef struct {
 
 FE_INLINE wide impulse_of(const freedom *f) { return (f->drive + f->motor) + (f->under - f->over); }
 
-FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_joints *r, int slot, int cone,
-                            const fe__step_constants *c)
+FE_INLINE void read_freedom(freedom *f, const row_joints *r, int slot, int cone, const fe__step_constants *c)
 {
-    wide4 limit = AXES_QUAD(axis[slot].limit), drive = AXES_QUAD(axis[slot].drive), motor = AXES_QUAD(axis[slot].motor);
-    wide4 impulse = AXES_QUAD(axis[slot].impulse), state = AXES_QUAD(axis[slot].state);
+    wide4 limit = AXIS_QUAD(slot, limit), drive = AXIS_QUAD(slot, drive), motor = AXIS_QUAD(slot, motor);
+    wide4 impulse = AXIS_QUAD(slot, impulse), state = AXIS_QUAD(slot, state);
     wide zero = w_set(0.0f), one = w_set(1.0f), none = w_set(FE__UNLIMITED), scale = w_set(c->warm_scale);
-    lane_softness lock = lock_softness(joints, r, c), soft = softness_of(limit.z, limit.w, &lock, c);
+    lane_softness lock = lock_softness(r, c), soft = softness_of(limit.z, limit.w, &lock, c);
     *f = (freedom){.x = state.x,
                    .low = cone ? zero : limit.x,
                    .high = cone ? none : limit.y,
@@ -58,13 +57,12 @@ FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_join
     f->limited = w_choose(w_or(w_greater(f->low, -none), w_greater(none, f->high)), one, zero);
 }
 
-static void write_freedom(const fe__joints *joints, const row_joints *r, const freedom *f, int slot,
-                          const fe__step_constants *c)
+static void write_freedom(const row_joints *r, const freedom *f, int slot, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), stored = stored_of(c);
     wide4 impulses = {stored * f->drive, stored * f->motor, stored * f->under, stored * f->over};
-    put_lanes(&joints->axes->axis[slot].impulse.drive, AXES_STRIDE, r->axes, r->real, impulses);
-    put_lanes(&joints->axes->axis[slot].state.x, AXES_STRIDE, r->axes, r->real,
+    put_lanes(r->axes, axis_offset(slot) + offsetof(fe__joint_axis, impulse.drive), r->real, impulses);
+    put_lanes(r->axes, axis_offset(slot) + offsetof(fe__joint_axis, state.x), r->real,
               (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
 }
 
@@ -208,23 +206,23 @@ FE_INLINE wide linear_speed(const linear_row *row, const ends *e)
            (w_dot(load3(row->moment_b), e->b.w) - w_dot(load3(row->moment_a), e->a.w));
 }
 
-FE_SMALL FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                       const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                       const fe__step_constants *c, int part, int slot)
+FE_SMALL FE_INLINE void prepare_linear(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                       int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
 {
     linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        find_axes(joints, r);
-        anchors first = first_anchors(joints, bodies, r, sides);
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        find_axes(r);
+        anchors first = first_anchors(r, sides);
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
-        store4(row->first_frame, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
+        store4(row->first_frame, first_frame(r->body_a, FRAME_QUAD(frame_a)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
         store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b));
         row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
-        read_freedom(&row->f, joints, r, slot, 0, c);
+        read_freedom(&row->f, r, slot, 0, c);
         place_linear(row, s, part, c);
         apply_linear(row, &e, impulse_of(&row->f));
         scatter_ends(s->velocity, &row->line, &e, sides);
@@ -256,15 +254,15 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
     }
 }
 
-FE_SMALL FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL FE_INLINE void store_linear(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                      int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        find_axes(joints, &r);
-        write_freedom(joints, &r, &row->f, slot, c);
+        row_joints r = name_joints(of, lanes);
+        find_axes(&r);
+        write_freedom(&r, &row->f, slot, c);
     }
 }
 
@@ -360,20 +358,20 @@ FE_INLINE void apply_angular(const angular_row *row, spins *e, wide impulse)
     e->b = w_add_scaled(e->b, impulse, load3(row->spin_b));
 }
 
-FE_SMALL FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                        const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                        const fe__step_constants *c, int part, int slot)
+FE_SMALL FE_INLINE void prepare_angular(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                        int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
 {
     angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        find_axes(joints, r);
-        store4(row->first_a, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
-        store4(row->first_b, first_frame(bodies, r->body_b, FRAME_QUAD(frame_b)));
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        find_axes(r);
+        store4(row->first_a, first_frame(r->body_a, FRAME_QUAD(frame_a)));
+        store4(row->first_b, first_frame(r->body_b, FRAME_QUAD(frame_b)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
-        read_freedom(&row->f, joints, r, slot, part == FE__PART_CONE, c);
-        wide4 limit = AXES_QUAD(axis[slot].limit);
+        read_freedom(&row->f, r, slot, part == FE__PART_CONE, c);
+        wide4 limit = AXIS_QUAD(slot, limit);
         row->cone[0] = limit.x, row->cone[1] = limit.y;
         place_angular(row, s, part, c);
         spins e = gather_spins(s->velocity, &row->line);
@@ -412,33 +410,33 @@ FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t s
     }
 }
 
-FE_SMALL FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL FE_INLINE void store_angular(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                       int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        find_axes(joints, &r);
-        write_freedom(joints, &r, &row->f, slot, c);
+        row_joints r = name_joints(of, lanes);
+        find_axes(&r);
+        write_freedom(&r, &row->f, slot, c);
     }
 }
 
 // ---- the kernels of each part ---------------------------------------------------------------------------------------
 #define AXIS_INSTANCE(name, form, part, slot)                                                                          \
-    static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, \
-                               void *rows, int32_t count, int32_t sides, const fe__step_constants *c)                  \
+    static void prepare_##name(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count, \
+                               int32_t sides, const fe__step_constants *c)                                             \
     {                                                                                                                  \
-        prepare_##form(s, bodies, joints, lanes, rows, count, sides, c, part, slot);                                   \
+        prepare_##form(s, of, lanes, rows, count, sides, c, part, slot);                                               \
     }                                                                                                                  \
     static void relax_##name(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)     \
     {                                                                                                                  \
         relax_##form(s, rows, count, sides, c, part);                                                                  \
     }                                                                                                                  \
-    static void store_##name(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,         \
+    static void store_##name(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,            \
                              int32_t count, const fe__step_constants *c)                                               \
     {                                                                                                                  \
-        store_##form(s, joints, lanes, rows, count, c, slot);                                                          \
+        store_##form(s, of, lanes, rows, count, c, slot);                                                              \
     }
 
 AXIS_INSTANCE(x, linear, FE__PART_X, FE__AXIS_LINEAR)

@@ -50,14 +50,13 @@ FE_INLINE void correct_start_point(const point_row *row, const fe__solver *s, wi
     }
 }
 
-static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
-                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+static void prepare_point(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows, int32_t count,
+                          int32_t sides, const fe__step_constants *c)
 {
     point_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count);
-        const row_joints *r = &of;
-        anchors first = first_anchors(joints, bodies, r, sides);
+        const row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        anchors first = first_anchors(r, sides);
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
@@ -108,17 +107,17 @@ static void relax_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_point(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+static void store_point(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows, int32_t count,
                         const fe__step_constants *c)
 {
     const point_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real,
-                  w_with(w_scale(stored, load3(row->impulse)), zero));
+        row_joints r = name_joints(of, lanes);
+        find_reactions(&r);
+        put_lanes(r.joint, offsetof(fe__joint, impulse), r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
         find_stretch(s, lanes, load3(row->gap), c);
-        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real,
+        put_lanes(r.reaction, offsetof(fe__joint_reaction, force), r.real,
                   w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

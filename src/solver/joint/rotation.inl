@@ -49,17 +49,16 @@ FE_INLINE wide3 hinge_torque(const hinge_row *row, wide l1, wide l2)
     return w_add_scaled(w_scale(l1, load3(row->t1)), l2, load3(row->t2));
 }
 
-FE_SMALL static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                   const fe__step_constants *c)
+FE_SMALL static void prepare_hinge(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                   int32_t count, int32_t sides, const fe__step_constants *c)
 {
     hinge_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)),
-              qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        wide4 qa = first_frame(r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(r->body_b, FRAME_QUAD(frame_b));
         wide4 impulse = FRAME_QUAD(impulse);
-        lane_softness soft = lock_softness(joints, r, c);
+        lane_softness soft = lock_softness(r, c);
         row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store3(row->first_t1, frame_axis(qa, 1)), store3(row->first_t2, frame_axis(qa, 2)),
             store3(row->first_axis_b, frame_axis(qb, 0));
@@ -116,17 +115,19 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-FE_SMALL static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL static void store_hinge(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                  int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const hinge_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real,
+        row_joints r = name_joints(of, lanes);
+        find_frames(&r);
+        find_reactions(&r);
+        put_lanes(r.frame, offsetof(fe__joint_frame, impulse), r.real,
                   (wide4){stored * row->impulse[0], stored * row->impulse[1], zero, zero});
-        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real,
+        put_lanes(r.reaction, offsetof(fe__joint_reaction, torque), r.real,
                   w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
@@ -160,16 +161,15 @@ FE_INLINE void place_fixed(fixed_row *row, const fe__solver *s)
     store3(row->error, w_scale(w_set(2.0f), w_xyz(q)));
 }
 
-FE_SMALL static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                   const fe__step_constants *c)
+FE_SMALL static void prepare_fixed(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                   int32_t count, int32_t sides, const fe__step_constants *c)
 {
     fixed_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)),
-              qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
-        lane_softness soft = lock_softness(joints, r, c);
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        wide4 qa = first_frame(r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(r->body_b, FRAME_QUAD(frame_b));
+        lane_softness soft = lock_softness(r, c);
         row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store4(row->first, w_product(qb, w_conjugate(qa)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
@@ -213,17 +213,19 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-FE_SMALL static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL static void store_fixed(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                  int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const fixed_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real,
+        row_joints r = name_joints(of, lanes);
+        find_frames(&r);
+        find_reactions(&r);
+        put_lanes(r.frame, offsetof(fe__joint_frame, impulse), r.real,
                   w_with(w_scale(stored, load3(row->impulse)), zero));
-        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real,
+        put_lanes(r.reaction, offsetof(fe__joint_reaction, torque), r.real,
                   w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
@@ -296,18 +298,18 @@ FE_INLINE wide3 shortened(wide3 a, wide most)
     return w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), w_set(1.0f)), a);
 }
 
-FE_SMALL static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                      const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                      const fe__step_constants *c)
+FE_SMALL static void prepare_rotation(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                      int32_t count, int32_t sides, const fe__step_constants *c)
 {
     rotation_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        find_axes(joints, r);
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        find_axes(r);
         wide4 motor = AXES_QUAD(rotation.motor);
         wide scale = w_set(c->warm_scale);
-        store4(row->first_a, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
-        store4(row->first_b, first_frame(bodies, r->body_b, FRAME_QUAD(frame_b)));
+        store4(row->first_a, first_frame(r->body_a, FRAME_QUAD(frame_a)));
+        store4(row->first_b, first_frame(r->body_b, FRAME_QUAD(frame_b)));
         store4(row->target, AXES_QUAD(rotation.target)), store3(row->motor, w_xyz(motor));
         row->motor_cap = c->h * motor.w;
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
@@ -370,20 +372,20 @@ static void relax_rotation(fe__solver *s, void *rows, int32_t count, int32_t sid
     }
 }
 
-FE_SMALL static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL static void store_rotation(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                     int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const rotation_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        find_axes(joints, &r);
-        put_lanes(joints->axes->rotation.impulse, AXES_STRIDE, r.axes, r.real,
+        row_joints r = name_joints(of, lanes);
+        find_axes(&r);
+        put_lanes(r.axes, offsetof(fe__joint_axes, rotation.impulse), r.real,
                   w_with(w_scale(stored, load3(row->impulse)), zero));
-        put_lanes(joints->axes->rotation.motor_impulse, AXES_STRIDE, r.axes, r.real,
+        put_lanes(r.axes, offsetof(fe__joint_axes, rotation.motor_impulse), r.real,
                   w_with(w_scale(stored, load3(row->motor_impulse)), zero));
-        put_lanes(joints->axes->rotation.torque, AXES_STRIDE, r.axes, r.real,
+        put_lanes(r.axes, offsetof(fe__joint_axes, rotation.torque), r.real,
                   w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

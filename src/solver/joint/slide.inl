@@ -99,34 +99,33 @@ FE_INLINE void correct_start_slide(const slide_row *row, const fe__solver *s, wi
 }
 
 // which axes are locked, lane by lane: all of a point
-FE_INLINE wide3 locked_axes(const fe__joints *joints, const row_joints *r)
+FE_INLINE wide3 locked_axes(const row_joints *r)
 {
     _Alignas(64) float keep[3][FE_W];
     for (int i = 0; i < FE_W; ++i) {
-        const fe__joint_frame *f = joints->frames + r->joint[i];
+        const fe__joint_frame *f = r->frame[i];
         int locked = f->parts >> FE__PART_POINT & 1 ? FE__LOCK_X | FE__LOCK_Y | FE__LOCK_Z : f->locked;
         for (int k = 0; k < 3; ++k) keep[k][i] = locked >> k & 1 ? 1.0f : 0.0f;
     }
     return (wide3){*(wide *)keep[0], *(wide *)keep[1], *(wide *)keep[2]};
 }
 
-FE_SMALL static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joints *joints,
-                                   const fe__lane *lanes, void *rows, int32_t count, int32_t sides,
-                                   const fe__step_constants *c)
+FE_SMALL static void prepare_slide(fe__solver *s, const fe__records *of, const fe__lane *lanes, void *rows,
+                                   int32_t count, int32_t sides, const fe__step_constants *c)
 {
     slide_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        anchors first = first_anchors(joints, bodies, r, sides);
-        lane_softness soft = lock_softness(joints, r, c);
+        row_joints named = joints_of(of, lanes, &row->line, i + 1 < count), *r = &named;
+        find_frames(r);
+        anchors first = first_anchors(r, sides);
+        lane_softness soft = lock_softness(r, c);
         row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
-        store4(row->first_frame, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
+        store4(row->first_frame, first_frame(r->body_a, FRAME_QUAD(frame_a)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
-        store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)),
-            store3(row->keep, locked_axes(joints, r));
+        store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)), store3(row->keep, locked_axes(r));
         row->locked = e.a.locks + e.b.locks, row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_times(load3(row->keep), w_xyz(JOINT_QUAD(impulse)))));
         store3(row->total, w_zero3());
@@ -171,17 +170,17 @@ static void relax_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-FE_SMALL static void store_slide(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+FE_SMALL static void store_slide(fe__solver *s, const fe__records *of, const fe__lane *lanes, const void *rows,
                                  int32_t count, const fe__step_constants *c)
 {
     const slide_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        row_joints r = name_joints(lanes);
-        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real,
-                  w_with(w_scale(stored, load3(row->impulse)), zero));
+        row_joints r = name_joints(of, lanes);
+        find_reactions(&r);
+        put_lanes(r.joint, offsetof(fe__joint, impulse), r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
         find_stretch(s, lanes, load3(row->error), c);
-        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real,
+        put_lanes(r.reaction, offsetof(fe__joint_reaction, force), r.real,
                   w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

@@ -15,14 +15,7 @@ typedef struct {
     side a, b;
 } ends;
 
-enum {
-    JOINT_STRIDE = sizeof(fe__joint) / sizeof(float),
-    FRAME_STRIDE = sizeof(fe__joint_frame) / sizeof(float),
-    REACTION_STRIDE = sizeof(fe__joint_reaction) / sizeof(float),
-    AXES_STRIDE = sizeof(fe__joint_axes) / sizeof(float),
-    BODY_STRIDE = sizeof(fe__body) / sizeof(float),
-    BOTH_SIDES = FE__MOVES_A | FE__MOVES_B
-};
+enum { BOTH_SIDES = FE__MOVES_A | FE__MOVES_B };
 
 // ---- bodies ---------------------------------------------------------------------------------------------------------
 FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line)
@@ -82,74 +75,94 @@ FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const 
 
 // ---- records --------------------------------------------------------------------------------------------------------
 
-// The joints of a row.
+// The joints of a row, and where their records are.
 // Padding lanes stand for the first lane's joint, on lines of their own that nothing moves; they are never stored.
 typedef struct {
-    int32_t joint[FE_W], body_a[FE_W], body_b[FE_W], axes[FE_W];
+    const fe__records *of[FE_W];
+    int32_t index[FE_W];
+    void *joint[FE_W], *body_a[FE_W], *body_b[FE_W], *frame[FE_W], *axes[FE_W], *reaction[FE_W];
     int32_t real; // lanes before the padding
 } row_joints;
 
-FE_INLINE row_joints name_joints(const fe__lane *lanes)
+FE_INLINE row_joints name_joints(const fe__records *of, const fe__lane *lanes)
 {
-    row_joints r = {.real = 0};
+    row_joints r;
+    r.real = 0;
     for (int i = 0; i < FE_W; ++i) {
-        r.joint[i] = lanes[i].contact ? lanes[i].contact : lanes[0].contact;
+        const fe__lane *lane = lanes[i].contact ? lanes + i : lanes;
+        r.of[i] = of + lane->home, r.index[i] = lane->contact;
+        r.joint[i] = r.of[i]->joints->joints + lane->contact;
         r.real += lanes[i].contact != 0;
     }
     return r;
 }
 
-FE_INLINE row_joints joints_of(const fe__joints *joints, const fe__lane *lanes, line_pair *line, int32_t prefetch)
+FE_INLINE row_joints joints_of(const fe__records *of, const fe__lane *lanes, line_pair *line, int32_t prefetch)
 {
-    row_joints r = name_joints(lanes);
+    row_joints r = name_joints(of, lanes);
     for (int i = 0; i < FE_W; ++i) {
-        if (prefetch) __builtin_prefetch(joints->joints + lanes[FE_W + i].contact);
+        const fe__lane *next = lanes + FE_W + i;
+        if (prefetch) __builtin_prefetch(of[next->home].joints->joints + next->contact);
         line->a[i] = lanes[i].line_a, line->b[i] = lanes[i].line_b;
-        r.body_a[i] = joints->joints[r.joint[i]].body_a, r.body_b[i] = joints->joints[r.joint[i]].body_b;
+        const fe__joint *joint = r.joint[i];
+        r.body_a[i] = r.of[i]->bodies + joint->body_a, r.body_b[i] = r.of[i]->bodies + joint->body_b;
     }
     return r;
 }
 
-FE_INLINE void find_axes(const fe__joints *joints, row_joints *r)
+FE_INLINE void find_frames(row_joints *r)
 {
-    for (int i = 0; i < FE_W; ++i) r->axes[i] = joints->frames[r->joint[i]].axes;
+    for (int i = 0; i < FE_W; ++i) r->frame[i] = r->of[i]->joints->frames + r->index[i];
 }
 
-#define JOINT_QUAD(field) w_gather(joints->joints->field, JOINT_STRIDE, r->joint)
-#define FRAME_QUAD(field) w_gather(joints->frames->field, FRAME_STRIDE, r->joint)
-#define AXES_QUAD(field) w_gather((const float *)&joints->axes->field, AXES_STRIDE, r->axes)
-#define BODY_QUAD(field, body) w_gather(bodies->field, BODY_STRIDE, body)
-
-static void put_lanes(float *base, int stride, const int32_t *index, int32_t real, wide4 a)
+FE_INLINE void find_axes(row_joints *r)
 {
-    if (real == FE_W) {
-        w_scatter(base, stride, index, a);
-        return;
-    }
+    for (int i = 0; i < FE_W; ++i) r->axes[i] = r->of[i]->joints->axes + r->of[i]->joints->frames[r->index[i]].axes;
+}
+
+FE_INLINE void find_reactions(row_joints *r)
+{
+    for (int i = 0; i < FE_W; ++i) r->reaction[i] = r->of[i]->joints->reactions + r->index[i];
+}
+
+FE_INLINE size_t axis_offset(int slot)
+{
+    return offsetof(fe__joint_axes, axis) + (size_t)slot * sizeof(fe__joint_axis);
+}
+
+#define JOINT_QUAD(field) w_gather_from(r->joint, offsetof(fe__joint, field))
+#define FRAME_QUAD(field) w_gather_from(r->frame, offsetof(fe__joint_frame, field))
+#define AXES_QUAD(field) w_gather_from(r->axes, offsetof(fe__joint_axes, field))
+#define AXIS_QUAD(slot, field) w_gather_from(r->axes, axis_offset(slot) + offsetof(fe__joint_axis, field))
+#define BODY_QUAD(field, body) w_gather_from(body, offsetof(fe__body, field))
+
+// to those that are no padding
+static void put_lanes(void *const *at, size_t offset, int32_t real, wide4 a)
+{
     _Alignas(64) float lane[FE_W][4];
     w_scatter(lane[0], 4, w_in_order, a);
-    for (int i = 0; i < real; ++i) *(quad *)(base + (intptr_t)index[i] * stride) = *(const quad *)lane[i];
+    for (int i = 0; i < real; ++i) *(quad *)(void *)((char *)at[i] + offset) = *(const quad *)lane[i];
 }
 
 FE_INLINE wide3 turned(wide4 q, wide3 a) { return w_add(a, w_turn(q, a)); }
 
 // The gap of joints with something that is not dynamic, whose anchor may be far from its centre: in double.
-static wide3 gap_in_double(const fe__joints *joints, const fe__body *bodies, const row_joints *r)
+static wide3 gap_in_double(const row_joints *r)
 {
     _Alignas(64) float gap[3][FE_W];
     for (int i = 0; i < FE_W; ++i) {
-        fe_vec3 d = fe__narrow(fe__joint_gap(joints->joints + r->joint[i], bodies));
+        fe_vec3 d = fe__narrow(fe__joint_gap(r->joint[i], r->of[i]->bodies));
         gap[0][i] = d.x, gap[1][i] = d.y, gap[2][i] = d.z;
     }
     return (wide3){*(wide *)gap[0], *(wide *)gap[1], *(wide *)gap[2]};
 }
 
-FE_INLINE anchors first_anchors(const fe__joints *joints, const fe__body *bodies, const row_joints *r, int sides)
+FE_INLINE anchors first_anchors(const row_joints *r, int sides)
 {
     wide4 qa = BODY_QUAD(rotation, r->body_a), qb = BODY_QUAD(rotation, r->body_b);
     anchors f = {turned(qa, w_xyz(JOINT_QUAD(arm_a))), turned(qb, w_xyz(JOINT_QUAD(arm_b))), w_zero3()};
     if (sides != BOTH_SIDES) {
-        f.gap = gap_in_double(joints, bodies, r);
+        f.gap = gap_in_double(r);
         return f;
     }
     wide3 high = w_sub(w_xyz(BODY_QUAD(centre_high, r->body_b)), w_xyz(BODY_QUAD(centre_high, r->body_a)));
@@ -203,7 +216,7 @@ FE_INLINE lane_softness softness_of(wide hertz, wide ratio, const lane_softness 
 }
 
 // of a joint's locks
-FE_INLINE lane_softness lock_softness(const fe__joints *joints, const row_joints *r, const fe__step_constants *c)
+FE_INLINE lane_softness lock_softness(const row_joints *r, const fe__step_constants *c)
 {
     lane_softness world = {w_set(c->joint.mass_scale * c->joint.bias_rate), w_set(c->joint.impulse_scale), w_set(1.0f)};
     return softness_of(JOINT_QUAD(arm_a).w, JOINT_QUAD(arm_b).w, &world, c);
@@ -264,10 +277,7 @@ FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
 // ---- rotations ------------------------------------------------------------------------------------------------------
 FE_INLINE wide4 load4(const wide *p) { return (wide4){p[0], p[1], p[2], p[3]}; }
 FE_INLINE void store4(wide *p, wide4 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z, p[3] = a.w; }
-FE_INLINE wide4 first_frame(const fe__body *bodies, const int32_t *body, wide4 frame)
-{
-    return w_product(BODY_QUAD(rotation, body), frame);
-}
+FE_INLINE wide4 first_frame(void *const *body, wide4 frame) { return w_product(BODY_QUAD(rotation, body), frame); }
 FE_INLINE wide4 frame_now(const fe__solver *s, const int32_t *line, const wide *first)
 {
     return w_product(gather_high(s->motion, line), load4(first));

@@ -16,12 +16,12 @@ uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, fe__tree_ki
     return form;
 }
 
-int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, int32_t b)
+int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, const fe__forest *other, int32_t b)
 {
-    const fe__joint_tree *s = forest->trees + a, *t = forest->trees + b;
+    const fe__joint_tree *s = forest->trees + a, *t = other->trees + b;
     if (s->form != t->form || s->count != t->count || s->kind != t->kind || s->locks != t->locks) return 0;
     for (int32_t i = 0; i < s->count; ++i) {
-        const fe__tree_link *l = forest->links + s->first + i, *m = forest->links + t->first + i;
+        const fe__tree_link *l = forest->links + s->first + i, *m = other->links + t->first + i;
         if (l->parent != m->parent || l->form != m->form) return 0;
     }
     return 1;

@@ -56,8 +56,8 @@ typedef struct fe__forest {
 
 // A number of the form of a tree's links
 uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, fe__tree_kind kind, uint32_t locks);
-// 1: they have as many links, each with the same parent and the same form of joint, so that they may be solved side by
-// side
-int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, int32_t b);
+// 1: tree a of one forest and tree b of another, or of the same, have as many links, each with the same parent and the
+// same form of joint, so that they may be solved side by side
+int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, const fe__forest *other, int32_t b);
 
 #endif

@@ -110,6 +110,7 @@ typedef struct pass {
     const fe__tree_link *links; // of the first tree: all have one form
     const fe__tree_place *places[LANES];
     const fe__tree_link *links_of[LANES];
+    const fe__records *of[LANES];
     int32_t count;  // links
     int32_t kind;   // fe__tree_kind
     int32_t lanes;  // bits of those in use

@@ -33,7 +33,7 @@ static int32_t touched_in(const pass *t, int32_t i)
 {
     int32_t lanes = 0;
     for (int lane = 0; lane < t->job->count; ++lane) {
-        const fe__body *body = t->job->bodies + t->links_of[lane][i].body;
+        const fe__body *body = t->of[lane]->bodies + t->links_of[lane][i].body;
         lanes |= (body->colours[0] | body->colours[1]) != 0 ? 1 << lane : 0;
     }
     return lanes;

@@ -18,9 +18,8 @@
 // `count` trees of one form, at most as many as the kernels have lanes
 typedef struct fe__tree_job {
     fe__solver *solver;
-    const fe__body *bodies;
-    const fe__joints *joints;
-    const int32_t *trees; // of the forest
+    const fe__records *of;
+    const fe__tree_name *trees;
     int32_t count;
     unsigned char *rows;  // of the batch
     unsigned char *nodes; // fe__forest_bytes of them, whole blocks
