@@ -11,20 +11,21 @@ static fe__registry batches = {.lock = FE_MUTEX_INITIAL};
 int32_t fe__batch_lives(const fe_batch *batch) { return fe__registry_has(&batches, &batch->entry); }
 
 // ---- birth and death -----------------------------------------------------------------------------------------------
-// A few blocks for each worker, so that one that falls behind is helped; no more than that, as each is claimed
+// A few blocks for each worker, so that one that falls behind is helped; no more than that, as each is claimed. Worlds
+// of a block share rows: fewer than fill one would be too few, unless a worker had none
 static int32_t choose_block(int32_t worlds, int32_t workers)
 {
     enum { BLOCKS = 16, MOST = 64 };
-    int32_t block = worlds / (workers * BLOCKS);
-    return block < 1 ? 1 : block > MOST ? MOST : block;
+    int32_t block = fe__mini(worlds / (workers * BLOCKS), MOST), each = worlds / workers;
+    return fe__maxi(1, fe__maxi(block / FE__MERGE_MOST * FE__MERGE_MOST, fe__mini(each, FE__MERGE_MOST)));
 }
 
-static fe_result make_rooms(fe_batch *b)
+static fe_result make_locksteps(fe_batch *b)
 {
-    b->rooms = fe__allocate(&b->memory, (size_t)b->workers.count * sizeof *b->rooms);
-    for (int32_t i = 0; b->rooms && i < b->workers.count; ++i)
-        fe__memory_init(&b->rooms[i].memory, &b->memory.allocator);
-    return b->rooms ? FE_OK : FE_ERROR_MEMORY;
+    b->locksteps = fe__allocate(&b->memory, (size_t)b->workers.count * sizeof *b->locksteps);
+    for (int32_t i = 0; b->locksteps && i < b->workers.count; ++i)
+        fe__lockstep_init(b->locksteps + i, &b->memory.allocator);
+    return b->locksteps ? FE_OK : FE_ERROR_MEMORY;
 }
 
 static fe_result make_worlds(fe_batch *b, const fe_world *source, const fe__batch_plan *plan)
@@ -43,7 +44,7 @@ static fe_result make_worlds(fe_batch *b, const fe_world *source, const fe__batc
 
 static size_t bytes_kept(const fe_batch *b, const fe__bound *bound)
 {
-    return (size_t)b->workers.count * (size_t)bound->kept_of_worker * sizeof *bound->kept;
+    return (size_t)b->workers.count * FE__MERGE_MOST * (size_t)bound->kept_of_world * sizeof *bound->kept;
 }
 
 static void free_bound(fe_batch *b, fe__bound *bound)
@@ -58,8 +59,8 @@ static void free_batch(fe_batch *b, int32_t limit)
         fe__histories_end(b->worlds[i]);
         fe__world_destroy(b->worlds[i]);
     }
-    for (int32_t i = 0; b->rooms && i < b->workers.count; ++i) fe__workroom_free(b->rooms + i);
-    fe__release(&b->memory, b->rooms, (size_t)b->workers.count * sizeof *b->rooms);
+    for (int32_t i = 0; b->locksteps && i < b->workers.count; ++i) fe__lockstep_free(b->locksteps + i);
+    fe__release(&b->memory, b->locksteps, (size_t)b->workers.count * sizeof *b->locksteps);
     free_bound(b, &b->bound);
     fe__release(&b->memory, b->worlds, (size_t)limit * sizeof *b->worlds);
     fe__release(&b->memory, b->faults, (size_t)limit * sizeof *b->faults);
@@ -77,7 +78,7 @@ fe_result fe__batch_create(const fe_world *source, const fe__batch_plan *plan, f
     if (!b) return FE_ERROR_MEMORY;
     b->memory = memory;
     fe_result result = fe__workers_hire(&b->workers, plan->tasks, plan->pool, plan->worker_count);
-    if (result == FE_OK) result = make_rooms(b);
+    if (result == FE_OK) result = make_locksteps(b);
     if (result == FE_OK) result = fe__state_create(source, plan->def->allocator, &b->start);
     if (result == FE_OK) result = make_worlds(b, source, plan);
     if (result != FE_OK) {
@@ -139,10 +140,10 @@ fe_result fe__batch_bind(fe_batch *b, const fe__batch_array *arrays, int32_t inp
     for (int32_t i = 0; i < count; ++i) made.bytes += arrays[i].item_count * (int64_t)sizeof *arrays->items;
     for (int32_t i = 0; i < input_count; ++i)
         if (arrays[i].field->is_of_a_step)
-            made.kept_of_worker += arrays[i].item_count * fe__field_pushed(arrays[i].field);
+            made.kept_of_world += arrays[i].item_count * fe__field_pushed(arrays[i].field);
     if (made.bytes) made.arrays = fe__allocate(&b->memory, (size_t)made.bytes);
-    if (made.kept_of_worker) made.kept = fe__allocate(&b->memory, bytes_kept(b, &made));
-    if ((made.bytes && !made.arrays) || (made.kept_of_worker && !made.kept)) {
+    if (made.kept_of_world) made.kept = fe__allocate(&b->memory, bytes_kept(b, &made));
+    if ((made.bytes && !made.arrays) || (made.kept_of_world && !made.kept)) {
         free_bound(b, &made);
         return FE_ERROR_MEMORY;
     }

@@ -1,13 +1,13 @@
-// batch.h - many worlds, made from one, that step together: each by one worker at a time, from its inputs to its
-// outputs, while it lies in that worker's cache.
+// batch.h - many worlds, made from one, that step together: a few by one worker at a time, from their inputs to their
+// outputs, while they lie in that worker's cache.
 //
 // Each is a whole world, and steps as it would alone: which worker takes it, and when, shows nowhere.
 #ifndef FE_BATCH_BATCH_H
 #define FE_BATCH_BATCH_H
 #include "batch/field.h"
+#include "batch/lockstep.h"
 #include "core/registry.h"
 #include "state/state.h"
-#include "world/workroom.h"
 
 // A caller's array: (world, item, component), packed
 typedef struct fe__batch_array {
@@ -25,8 +25,8 @@ typedef struct fe__bound {
     fe__batch_array *arrays; // with a copy of their items behind them
     int32_t input_count, output_count;
     int64_t bytes;
-    fe__kept_force *kept; // of each worker: what was on the bodies that the inputs of a step push
-    int64_t kept_of_worker;
+    fe__kept_force *kept; // of each worker's worlds: what was on the bodies that the inputs of a step push
+    int64_t kept_of_world;
 } fe__bound;
 
 enum { FE__IN_A_STEP = -1, FE__IN_A_RESET = -2 }; // where a world failed, when not in an array
@@ -47,8 +47,8 @@ struct fe_batch {
     fe_world **worlds;
     fe__fault *faults; // of the last call, by world
     int32_t count;
-    int32_t block;       // worlds that a worker takes at once
-    fe__workroom *rooms; // of each worker
+    int32_t block;           // worlds that a worker takes at once
+    fe__lockstep *locksteps; // of each worker
     fe__bound bound;
 };
 

@@ -129,7 +129,8 @@ typedef struct job {
     void (*act)(const struct job *job, int32_t world, int32_t worker);
     float dt;
     int32_t steps;
-    _Atomic int32_t *some_filtered; // of a step: 1 when a world was left for the caller's thread
+    int32_t filtered;               // of a step: 1: only worlds with a pair filter; 0: only the others
+    _Atomic int32_t *some_filtered; // 1 when a world was left for the caller's thread
     const fe_state *const *states;
     const fe__batch_array *array;
     uint32_t *words;
@@ -142,14 +143,16 @@ static void act_on_range(void *argument, int32_t first, int32_t end, int32_t wor
         if (!j->mask || j->mask[i]) j->act(j, i, worker);
 }
 
-static void act_on_all(job *j)
+static void run_on_all(job *j, void (*range)(void *argument, int32_t first, int32_t end, int32_t worker))
 {
     fe_batch *b = j->batch;
     for (int32_t i = 0; i < b->count; ++i) b->faults[i] = (fe__fault){.result = FE_OK};
     fe__fp_state fp = fe__fp_enter();
-    fe__parallel_for(&b->workers, b->count, b->block, act_on_range, j);
+    fe__parallel_for(&b->workers, b->count, b->block, range, j);
     fe__fp_leave(fp);
 }
+
+static void act_on_all(job *j) { run_on_all(j, act_on_range); }
 
 // Inputs hold in all steps. In each but the first: what acts for one step alone. 0: the world cannot take them, or no
 // longer, as a joint may break in a step
@@ -165,60 +168,95 @@ static int32_t write_inputs(fe_batch *b, int32_t world, int32_t is_first, kept_f
     return takes;
 }
 
-// To the first that fails, which leaves none of its forces: the next call would add them again
-static void make_steps(const job *j, int32_t world, int32_t worker)
+// Worlds that a worker steps side by side
+typedef struct crew {
+    const job *job;
+    fe__lockstep *lockstep;
+    int32_t world[FE__MERGE_MOST];
+    kept_forces kept[FE__MERGE_MOST];
+    int32_t goes_on[FE__MERGE_MOST]; // 1: it has not failed
+    int32_t count;
+} crew;
+
+// Of a step that fails none of the forces stay: the next call would add them again
+static void begin_step(crew *c, int32_t i, int32_t is_first)
 {
-    fe_batch *b = j->batch;
-    fe_world *w = b->worlds[world];
-    kept_forces kept = {.count = 0};
-    if (b->bound.kept) kept.first = b->bound.kept + worker * b->bound.kept_of_worker;
-    int32_t whole = 1;
-    for (int32_t i = 0; i < j->steps && whole; ++i) {
-        whole = write_inputs(b, world, i == 0, &kept);
-        fe_result result = whole ? fe__world_step(w, j->dt) : FE_OK;
-        if (result != FE_OK) whole = fail(b->faults + world, result, FE__IN_A_STEP, 0);
-        if (!whole) put_back(w, &kept);
-    }
+    fe_batch *b = c->job->batch;
+    int32_t world = c->world[i];
+    c->goes_on[i] = write_inputs(b, world, is_first, c->kept + i);
+    fe_result result = c->goes_on[i] ? fe__lockstep_begin(c->lockstep, i, c->job->dt) : FE_OK;
+    if (result != FE_OK) c->goes_on[i] = fail(b->faults + world, result, FE__IN_A_STEP, 0);
+    if (!c->goes_on[i]) put_back(b->worlds[world], c->kept + i);
 }
 
-static void step_whole(const job *j, int32_t world, int32_t worker)
+static void make_step(crew *c, int32_t is_first)
 {
-    fe_batch *b = j->batch;
+    for (int32_t i = 0; i < c->count; ++i)
+        if (c->goes_on[i]) begin_step(c, i, is_first);
+    fe__lockstep_solve(c->lockstep);
+    for (int32_t i = 0; i < c->count; ++i)
+        if (c->goes_on[i]) fe__lockstep_end(c->lockstep, i);
+}
+
+static void read_outputs(fe_batch *b, int32_t world)
+{
     const fe__bound *bound = &b->bound;
-    fe__workroom_lend(b->rooms + worker, b->worlds[world]);
-    make_steps(j, world, worker);
-    fe__workroom_take_back(b->rooms + worker, b->worlds[world]);
-    for (int32_t i = 0; i < bound->output_count; ++i) {
-        int32_t array = bound->input_count + i;
-        read_rows(b, world, bound->arrays + array, array);
+    for (int32_t i = bound->input_count; i < bound->input_count + bound->output_count; ++i)
+        read_rows(b, world, bound->arrays + i, i);
+}
+
+// Each to its first step that fails
+static void step_crew(crew *c)
+{
+    fe_batch *b = c->job->batch;
+    for (int32_t i = 0; i < c->count; ++i) {
+        fe__lockstep_enter(c->lockstep, i, b->worlds[c->world[i]]);
+        c->goes_on[i] = 1;
     }
+    for (int32_t step = 0; step < c->job->steps; ++step) make_step(c, step == 0);
+    for (int32_t i = 0; i < c->count; ++i) {
+        fe__lockstep_leave(c->lockstep, i);
+        read_outputs(b, c->world[i]);
+    }
+    c->count = 0;
 }
 
-// A pair filter is the host's code. It is called on the host's thread, in the order of the worlds: what it remembers
-// does not depend on workers, and a managed runtime meets no thread that it does not know.
-static void step_unfiltered(const job *j, int32_t world, int32_t worker)
+static crew crew_of(const job *j, int32_t worker)
 {
-    if (j->batch->worlds[world]->pair_filter)
-        atomic_store_explicit(j->some_filtered, 1, memory_order_relaxed);
-    else
-        step_whole(j, world, worker);
+    const fe__bound *bound = &j->batch->bound;
+    crew c = {.job = j, .lockstep = j->batch->locksteps + worker, .count = 0};
+    for (int32_t i = 0; i < FE__MERGE_MOST && bound->kept; ++i)
+        c.kept[i].first = bound->kept + (worker * FE__MERGE_MOST + i) * bound->kept_of_world;
+    return c;
 }
 
-static void step_filtered(const job *j, int32_t world, int32_t worker)
+// A pair filter is the host's code. It is called on the host's thread, in the order of the worlds, one world after
+// another: what it remembers does not depend on workers, and a managed runtime meets no thread that it does not know.
+static void step_range(void *argument, int32_t first, int32_t end, int32_t worker)
 {
-    if (j->batch->worlds[world]->pair_filter) step_whole(j, world, worker);
+    const job *j = argument;
+    crew c = crew_of(j, worker);
+    const int32_t most = j->filtered ? 1 : FE__MERGE_MOST;
+    for (int32_t i = first; i < end; ++i) {
+        if (j->mask && !j->mask[i]) continue;
+        int32_t filtered = j->batch->worlds[i]->pair_filter != NULL;
+        if (filtered && !j->filtered) atomic_store_explicit(j->some_filtered, 1, memory_order_relaxed);
+        if (filtered != j->filtered) continue;
+        c.world[c.count++] = i;
+        if (c.count == most) step_crew(&c);
+    }
+    if (c.count) step_crew(&c);
 }
 
 void fe__batch_step(fe_batch *b, float dt, int32_t steps, const uint8_t *mask)
 {
     _Atomic int32_t some_filtered = 0;
-    job j = {.batch = b, .mask = mask, .act = step_unfiltered, .dt = dt, .steps = steps};
-    j.some_filtered = &some_filtered;
-    act_on_all(&j);
+    job j = {.batch = b, .mask = mask, .dt = dt, .steps = steps, .some_filtered = &some_filtered};
+    run_on_all(&j, step_range);
     if (!atomic_load_explicit(&some_filtered, memory_order_relaxed)) return;
     fe__fp_state fp = fe__fp_enter();
-    j.act = step_filtered;
-    act_on_range(&j, 0, b->count, 0);
+    j.filtered = 1;
+    step_range(&j, 0, b->count, 0);
     fe__fp_leave(fp);
 }
 

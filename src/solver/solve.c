@@ -577,6 +577,11 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
+}
+
+void fe__note_solved(fe__solver *s, const fe__kernels *kernels)
+{
+    if (!s->batch_count) return;
     note_strain(s);
     note_mixed(s, kernels->width);
 }

@@ -190,7 +190,8 @@ typedef struct fe__records {
     const uint64_t *serials; // of the pairs, two for each record of points
     fe__body *bodies;
     const fe__joints *joints;
-    int32_t first_place; // among fe__solver.places: of the forest's first link
+    int32_t first_place;      // among fe__solver.places: of the forest's first link
+    _Atomic int32_t *engaged; // fe__solver.engaged of the world
 } fe__records;
 
 // A tree of the forest of such a world

@@ -105,28 +105,41 @@ static float approach_of(const fe_world *w, int32_t pair)
     return most;
 }
 
-static fe__records records_of(const fe_world *w)
+static void note_approaches(fe_world *w)
 {
-    return (fe__records){.contacts = w->contacts,
-                         .points = w->points,
-                         .extras = w->extras,
-                         .serials = w->point_serials,
-                         .bodies = w->bodies,
-                         .joints = &w->joints};
-}
-
-void fe__solve_islands(fe__step *step)
-{
-    fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i) {
         int32_t pair = fe__pair_of(w->awake_pairs[i]);
         if (w->pairs[pair].events & FE_SHAPE_EVENTS_HIT && w->contacts[pair].points)
             w->features[w->contacts[pair].points].approach = approach_of(w, pair);
     }
-    fe__step_constants paces[FE__PACES];
-    constants_of_paces(w, step->dt, paces);
-    const fe__records of = records_of(w);
-    fe__solve(&w->solver, w->kernels, &w->workers, &of, paces);
-    w->last_h = step->constants.h;
-    w->last_dt = step->dt;
+}
+
+void fe__begin_solve(const fe__step *step, fe__solve_input *out_input)
+{
+    fe_world *w = step->world;
+    note_approaches(w);
+    constants_of_paces(w, step->dt, out_input->paces);
+    out_input->of = (fe__records){.contacts = w->contacts,
+                                  .points = w->points,
+                                  .extras = w->extras,
+                                  .serials = w->point_serials,
+                                  .bodies = w->bodies,
+                                  .joints = &w->joints,
+                                  .engaged = &w->solver.engaged};
+}
+
+void fe__end_solve(const fe__step *step)
+{
+    fe__note_solved(&step->world->solver, step->world->kernels);
+    step->world->last_h = step->constants.h;
+    step->world->last_dt = step->dt;
+}
+
+void fe__solve_islands(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__solve_input in;
+    fe__begin_solve(step, &in);
+    fe__solve(&w->solver, w->kernels, &w->workers, &in.of, in.paces);
+    fe__end_solve(step);
 }

@@ -33,6 +33,8 @@ static const stage stages[] = {
     {fe__give_back_rows, offsetof(fe_profile, sleep), 1},        // of a world that sleeps
 };
 
+enum { STAGES = sizeof stages / sizeof *stages, SOLVES = 3 }; // the stage that solves
+
 static void count(const fe__step *step)
 {
     fe_world *w = step->world;
@@ -60,30 +62,61 @@ static void count(const fe__step *step)
     }
 }
 
-fe_result fe__world_step(fe_world *w, float dt)
+// Up to `end`
+static void run_stages(fe__open_step *o, int32_t end)
 {
     enum { MILLISECONDS = 1000 };
-    if (!fe__open_step_scratch(w)) return FE_ERROR_MEMORY;
-    fe__step step = {.world = w,
-                     .scratch = w->scratch,
-                     .dt = dt,
-                     .fall = fe__length(w->gravity) * dt * dt,
-                     .constants = fe__constants_of(w, dt, 1)};
-    fe_profile profile = {.struct_size = sizeof profile};
-    double start = fe__clock(), mark = start;
-    fe__pool_begin(w->workers.pool);
-    for (size_t i = 0; i < sizeof stages / sizeof *stages && !step.failed; ++i) {
-        if (stages[i].moves && dt == 0.0f) continue;
-        stages[i].run(&step);
+    for (; o->next < end && !o->step.failed; ++o->next) {
+        const stage *s = stages + o->next;
+        if (s->moves && o->step.dt == 0.0f) continue;
+        s->run(&o->step);
         double now = fe__clock();
-        *(float *)(void *)((char *)&profile + stages[i].time) += (float)((now - mark) * MILLISECONDS);
-        mark = now;
+        *(float *)(void *)((char *)&o->profile + s->time) += (float)((now - o->mark) * MILLISECONDS);
+        o->profile.step += (float)((now - o->mark) * MILLISECONDS);
+        o->mark = now;
     }
+}
+
+fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt)
+{
+    if (!fe__open_step_scratch(w)) return FE_ERROR_MEMORY;
+    *o = (fe__open_step){.step = {.world = w,
+                                  .scratch = w->scratch,
+                                  .dt = dt,
+                                  .fall = fe__length(w->gravity) * dt * dt,
+                                  .constants = fe__constants_of(w, dt, 1)},
+                         .profile = {.struct_size = sizeof o->profile},
+                         .mark = fe__clock()};
+    fe__pool_begin(w->workers.pool);
+    run_stages(o, SOLVES);
+    if (!o->step.failed) return FE_OK;
     fe__pool_end(w->workers.pool);
-    if (step.failed) return FE_ERROR_MEMORY;
-    profile.step = (float)((fe__clock() - start) * MILLISECONDS);
-    w->profile = profile;
+    return FE_ERROR_MEMORY;
+}
+
+void fe__step_resume(fe__open_step *o, double solving)
+{
+    enum { MILLISECONDS = 1000 };
+    o->next = SOLVES + 1;
+    o->profile.solve = (float)(solving * MILLISECONDS);
+    o->profile.step += o->profile.solve;
+    o->mark = fe__clock();
+}
+
+void fe__step_end(fe__open_step *o)
+{
+    fe_world *w = o->step.world;
+    run_stages(o, STAGES);
+    fe__pool_end(w->workers.pool);
+    w->profile = o->profile;
     w->step_number += 1;
-    count(&step);
-    return FE_OK;
+    count(&o->step);
+}
+
+fe_result fe__world_step(fe_world *w, float dt)
+{
+    fe__open_step o;
+    fe_result result = fe__step_begin(&o, w, dt);
+    if (result == FE_OK) fe__step_end(&o);
+    return result;
 }

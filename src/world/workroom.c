@@ -26,7 +26,7 @@ void fe__workroom_lend(fe__workroom *room, fe_world *world)
     fe__solver_destroy(&world->solver, world->step_memory);
     exchange(&room->solver, &world->solver);
     forget_graph(world);
-    world->step_memory = &room->memory;
+    world->step_memory = room->memory;
     world->scratch = room->scratch, room->scratch = NULL;
     if (world->scratch) atomic_store(&world->scratch->some_deferred, 1);
 }
@@ -41,7 +41,7 @@ void fe__workroom_take_back(fe__workroom *room, fe_world *world)
 
 void fe__workroom_free(fe__workroom *room)
 {
-    fe__step_scratch_free(room->scratch, &room->memory);
-    fe__solver_destroy(&room->solver, &room->memory);
+    fe__step_scratch_free(room->scratch, room->memory);
+    fe__solver_destroy(&room->solver, room->memory);
     room->scratch = NULL;
 }

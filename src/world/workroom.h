@@ -7,7 +7,7 @@
 #include "world/world.h"
 
 typedef struct fe__workroom {
-    fe__memory memory;
+    fe__memory *memory;
     fe__solver solver;                // but for what of it is state: `burdened`
     struct fe__step_scratch *scratch; // NULL: none yet, or a world has it
 } fe__workroom;

@@ -902,16 +902,17 @@ static void allocations_fail_one_by_one(void **state)
             FE_TRUE(c.failures == 1 && c.blocks == 0);
             continue;
         }
-        int32_t results[3], made[3] = {0};
+        int32_t results[3], made[3] = {0}, lost = 0;
         for (int32_t i = 0; i < STEPS + 1; ++i) {
             (void)fe_batch_step(batch, DT, 1, NULL, results);
             for (int32_t w = 0; w < 3; ++w) {
                 FE_TRUE(results[w] == FE_OK || results[w] == FE_ERROR_MEMORY);
-                made[w] += results[w] == FE_OK;
+                made[w] += results[w] == FE_OK, lost += results[w] != FE_OK;
                 if (made[w] <= STEPS) FE_TRUE(hash_of(world_of(batch, w)) == hash[made[w]]);
             }
         }
-        FE_TRUE(made[0] + made[1] + made[2] + c.failures == 3 * (STEPS + 1));
+        // without memory for what they share, they are solved one by one
+        FE_TRUE(lost <= c.failures);
         failures = c.failures;
         OK(fe_batch_destroy(batch));
         FE_TRUE(c.blocks == 0 && c.wrong == 0);

@@ -35,10 +35,10 @@ typedef struct rig {
     fe__body bodies[MOST_LINKS + 1]; // by line
     lock_row locks[MOST_LINKS];
     fe__sym3 inertia[MOST_LINKS + 1];
-    int32_t opens;    // what is said of every lock
+    int32_t opens; // what is said of every lock
     fe__tree_name trees[1];
     fe__records records; // 0
-    bundle head;      // and, right behind it, the nodes
+    bundle head;         // and, right behind it, the nodes
     tree_node nodes[MOST_LINKS];
     fe__tree_job job;
     uint32_t random;
@@ -115,7 +115,7 @@ static void begin(uint32_t seed)
     for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
     the.joints.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
     the.tree.kind = FE__TREE_HEAVY;
-    the.records = (fe__records){.bodies = the.bodies, .joints = &the.joints};
+    the.records = (fe__records){.bodies = the.bodies, .joints = &the.joints, .engaged = &the.solver.engaged};
     the.job = (fe__tree_job){.solver = &the.solver,
                              .of = &the.records,
                              .trees = the.trees,

@@ -31,6 +31,7 @@ enum { FE__LINKED_INTS = sizeof(fe__linked) / sizeof(int32_t) };
 typedef struct fe__builder {
     fe__solver *s;
     const fe__graph_input *in;
+    const fe__records *of; // by home: where the trees are
     int32_t width;
     int32_t *parent;          // by awake index of a body; a parent's index is never above its child's
     int32_t *island_of;       // by awake index, FE__NONE: kinematic
@@ -89,6 +90,14 @@ static inline int32_t fe__width_for(const fe__builder *b, int32_t lanes)
 void fe__graph_find_batches(fe__builder *b);
 // Groups of the joints of batch k, and its trees
 void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernels);
+// It bore nothing in the last step, and there is a gap at each point. Of the kinds of rows that are never skipped
+// (contact/idle.inl) none is: their order tells nothing
+int32_t fe__graph_is_loose(const fe__contact *contact, const fe__points *points);
+// The trees of a batch from `first` on into groups, as many side by side as there are lanes
+void fe__graph_group_trees(fe__builder *b, fe__batch *batch, int32_t first, const fe__kernels *kernels);
+// To a place of the forest, the row of a part of its joint, if that is a lock: the group, the lane among the solver's
+void fe__graph_add_lock(const fe__builder *b, int32_t place, int32_t part, int32_t group, int32_t lane,
+                        const fe__kernels *kernels);
 // A group of a batch, with a dummy in each lane. `like` has all but the place
 fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size);
 // Of a body in the batch at hand

@@ -19,9 +19,7 @@ static void join(int32_t *parent, int32_t a, int32_t b)
         parent[x] = y;
 }
 
-// It bore nothing in the last step, and there is a gap at each point. Of the kinds of rows that are never skipped
-// (contact/idle.inl) none is: their order tells nothing
-static int32_t is_loose(const fe__contact *m, const fe__points *q)
+int32_t fe__graph_is_loose(const fe__contact *m, const fe__points *q)
 {
     if (!(m->kind & FE__ROW_PAIR) || m->kind & FE__ROW_SPECIAL) return 0;
     for (int k = 0; k < FE__POINTS; ++k)
@@ -50,7 +48,7 @@ static void join_contacts(fe__builder *b)
         if (m->colour < 0) continue;
         int32_t awake_a = in->bodies[m->body_a].awake_index, awake_b = in->bodies[m->body_b].awake_index;
         b->linked[b->linked_count++] = (fe__linked){contact, m->points, m->colour * FE__ROW_KINDS + m->kind,
-                                                    awake_a, awake_b,   is_loose(m, in->points + m->points)};
+                                                    awake_a, awake_b,   fe__graph_is_loose(m, in->points + m->points)};
         if (m->kind & FE__ROW_PAIR) join(b->parent, awake_a, awake_b);
     }
 }

@@ -76,27 +76,37 @@ static void open_tree(fe__builder *b, int32_t link)
     s->trees[s->tree_count++] = (fe__tree_name){0, l->tree};
 }
 
-// those of one form one after another
-static void sort_trees(fe__solver *s, const fe__forest *f, int32_t first)
+static const fe__joint_tree *tree_of(const fe__builder *b, fe__tree_name name)
 {
-    fe__sort_item *items = s->sort_items;
-    int32_t n = s->tree_count - first;
-    for (int32_t i = 0; i < n; ++i)
-        items[i] = (fe__sort_item){f->trees[s->trees[first + i].tree].form, s->trees[first + i].tree, 0};
-    fe__sort_keys(items, n, items + n);
-    for (int32_t i = 0; i < n; ++i) s->trees[first + i].tree = items[i].value;
+    return b->of[name.home].joints->forest.trees + name.tree;
 }
 
-// The trees of a batch from `first` on, as many side by side as there are lanes
-static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const fe__kernels *kernels)
+static int32_t are_alike(const fe__builder *b, fe__tree_name one, fe__tree_name other)
+{
+    return fe__trees_are_alike(&b->of[one.home].joints->forest, one.tree, &b->of[other.home].joints->forest,
+                               other.tree);
+}
+
+// those of one form one after another
+static void sort_trees(const fe__builder *b, int32_t first)
+{
+    fe__sort_item *items = b->s->sort_items;
+    fe__tree_name *trees = b->s->trees + first;
+    int32_t n = b->s->tree_count - first;
+    for (int32_t i = 0; i < n; ++i)
+        items[i] = (fe__sort_item){tree_of(b, trees[i])->form, trees[i].tree, trees[i].home};
+    fe__sort_keys(items, n, items + n);
+    for (int32_t i = 0; i < n; ++i) trees[i] = (fe__tree_name){items[i].spare, items[i].value};
+}
+
+void fe__graph_group_trees(fe__builder *b, fe__batch *batch, int32_t first, const fe__kernels *kernels)
 {
     fe__solver *s = b->s;
-    const fe__forest *f = &b->in->joints->forest;
     const int32_t widest = fe__forest_kernels_of(kernels, INT32_MAX)->lanes;
-    sort_trees(s, f, first);
+    sort_trees(b, first);
     for (int32_t i = first, last; i < s->tree_count; i = last) {
         for (last = i + 1; last < s->tree_count && last - i < widest; ++last)
-            if (!fe__trees_are_alike(f, s->trees[i].tree, f, s->trees[last].tree)) break;
+            if (!are_alike(b, s->trees[i], s->trees[last])) break;
         batch->row_bytes = fe__whole_blocks(batch->row_bytes);
         s->groups[s->group_count++] = (fe__group){.width = b->width,
                                                   .kind = FE__TREE_KIND,
@@ -105,18 +115,16 @@ static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const f
                                                   .rows = 1,
                                                   .trees = last - i,
                                                   .offset = batch->row_bytes};
-        batch->row_bytes +=
-            fe__forest_bytes(fe__forest_kernels_of(kernels, last - i), f->trees[s->trees[i].tree].count);
+        batch->row_bytes += fe__forest_bytes(fe__forest_kernels_of(kernels, last - i), tree_of(b, s->trees[i])->count);
         ++batch->group_count, ++batch->tree_groups;
     }
 }
 
-// the rows of a link's locks
-static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t group, int32_t lane,
-                     const fe__kernels *kernels)
+void fe__graph_add_lock(const fe__builder *b, int32_t place, int32_t part, int32_t group, int32_t lane,
+                        const fe__kernels *kernels)
 {
     const fe__group *g = b->s->groups + group;
-    fe__tree_place *p = b->s->places + link;
+    fe__tree_place *p = b->s->places + place;
     if (!((FE__LOCKS | 1 << FE__PART_DISTANCE) >> part & 1)) return;
     const fe__joint_kernels *width = fe__joint_kernels_of(kernels, g->width);
     p->lock[p->locks].of = &width->locks;
@@ -141,7 +149,7 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
         if (!(j->rows >> part & 1) || is_in_rope(b, joint)) continue;
         int32_t group = s->group_count, lane = open_joints(b, batch, joint_key(part, j), 1, kernels)->lane;
         s->lanes[lane] = joint_lane(b, joint);
-        if (link >= 0) add_lock(b, link, part, group, lane, kernels);
+        if (link >= 0) fe__graph_add_lock(b, link, part, group, lane, kernels);
     }
 }
 
@@ -156,7 +164,7 @@ static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *k
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
         b->s->lanes[at] = lane;
-        if (link >= 0) add_lock(b, link, part, b->joint_key_group[key], at, kernels);
+        if (link >= 0) fe__graph_add_lock(b, link, part, b->joint_key_group[key], at, kernels);
     }
 }
 
@@ -185,6 +193,6 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
         if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, b->joint_order[i], kernels);
     }
-    if (b->s->tree_count > first_tree) group_trees(b, batch, first_tree, kernels);
+    if (b->s->tree_count > first_tree) fe__graph_group_trees(b, batch, first_tree, kernels);
     batch->joint_groups = batch->group_count;
 }

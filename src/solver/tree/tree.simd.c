@@ -342,7 +342,7 @@ static void engage(const pass *t, int32_t lanes)
     for (int lane = 0; lane < LANES; ++lane) {
         if (!(lanes >> lane & 1)) continue;
         t->head->state[lane] = SOLVED;
-        atomic_fetch_add_explicit(&t->solver->engaged, 1, memory_order_relaxed);
+        atomic_fetch_add_explicit(t->of[lane]->engaged, 1, memory_order_relaxed);
     }
 }
 

@@ -1,0 +1,48 @@
+// lockstep.h - some worlds that step side by side, whose lanes share the solver's rows.
+//
+// Small worlds fill few lanes. So a worker takes several, brings each to where it would be solved, solves all of them
+// as one, and ends the step of each. Every world does what it does alone, bit for bit.
+//
+// Between the halves of a step each world has a workroom; rows are needed within a half only, so one block of them
+// goes round.
+#ifndef FE_BATCH_LOCKSTEP_H
+#define FE_BATCH_LOCKSTEP_H
+#include "solver/graph/graph_merge.h"
+#include "step/solve_stage.h"
+#include "step/step.h"
+#include "world/workroom.h"
+
+enum { FE__ALONE = -1 };
+
+// A world's place
+typedef struct fe__lockstep_place {
+    fe_world *world; // NULL: nobody is here
+    fe__workroom room;
+    fe__open_step open;
+    fe__solve_input input;
+    int64_t trail;   // blocks of rows before its trails
+    int32_t is_open; // 1: between the halves of a step
+    int32_t part;    // of the merged graph that solved it, FE__ALONE: it solves itself
+} fe__lockstep_place;
+
+// Of one worker
+typedef struct fe__lockstep {
+    fe__memory memory;
+    fe__lockstep_place places[FE__MERGE_MOST];
+    fe__merge merge;
+    double solving; // s, a world's share of the last solve
+    fe__row_block *rows;
+    int32_t row_capacity; // blocks
+} fe__lockstep;
+
+void fe__lockstep_init(fe__lockstep *l, const fe_allocator *allocator);
+void fe__lockstep_free(fe__lockstep *l);
+
+void fe__lockstep_enter(fe__lockstep *l, int32_t place, fe_world *world);
+void fe__lockstep_leave(fe__lockstep *l, int32_t place); // whose step may have failed
+
+fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt); // of FE_ERROR_MEMORY nothing happened
+void fe__lockstep_solve(fe__lockstep *l);                               // all that began
+void fe__lockstep_end(fe__lockstep *l, int32_t place);                  // one that began
+
+#endif
