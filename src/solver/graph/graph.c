@@ -149,20 +149,20 @@ static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
     fe__batch *batch = s->batches + k;
     batch->first_group = s->group_count;
     fe__graph_joint_groups(b, k, kernels);
-    memset(b->key_count, 0, sizeof(int32_t) * FE__GROUP_KEYS);
+    memset(b->keys, 0, sizeof b->keys);
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         int32_t key = b->linked[b->contact_order[i]].key;
-        ++b->key_count[key];
+        fe__count_key(b->keys, b->key_count, key, 1);
         batch->bounces |= key & FE__ROW_SPECIAL;
     }
-    for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
+    const int32_t end = FE__OVERFLOW_COLOUR * FE__ROW_KINDS;
+    for (int32_t key = 0; (key = fe__next_key(b->keys, key, end)) < end; ++key) {
         int32_t contacts = b->key_count[key], kind = key % FE__ROW_KINDS;
-        if (!contacts) continue;
         b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, kind, contacts, kernels)->lane;
         s->built.contacts[kind] += contacts;
-        s->built.colours[kind] += !(b->seen[key / 64] >> key % 64 & 1);
-        b->seen[key / 64] |= UINT64_C(1) << key % 64;
+        s->built.colours[kind] += !(b->seen[key / FE__KEY_WORD] >> key % FE__KEY_WORD & 1);
     }
+    for (int32_t i = 0; i < FE__KEY_WORDS(FE__GROUP_KEYS); ++i) b->seen[i] |= b->keys[i];
     fill_lanes(b, k, 0);
     fill_lanes(b, k, 1);
     add_overflow(b, k, kernels);

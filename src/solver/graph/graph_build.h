@@ -18,6 +18,10 @@ enum {
 _Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES,
                "one dummy line for each kind that may be in a colour");
 
+// Sets of keys of groups, a bit each: of thousands of keys a small world has ten
+enum { FE__KEY_WORD = 64 };
+#define FE__KEY_WORDS(keys) (((int)(keys) + FE__KEY_WORD - 1) / FE__KEY_WORD)
+
 // What a build needs of a contact in the graph. Contacts lie anywhere in memory: each is read once.
 typedef struct fe__linked {
     int32_t contact, points;
@@ -51,11 +55,32 @@ typedef struct fe__builder {
     int32_t *contact_start;
     int32_t *joint_order; // joints by batch
     int32_t *joint_start;
-    int32_t *key_count;                 // by colour and kind
-    uint64_t seen[FE__GROUP_KEYS / 64]; // colours and kinds of all batches, a bit each
-    int32_t *joint_key_count;           // by part, colour and sides
+    int32_t *key_count; // by colour and kind, of those of the batch at hand: contacts, then the next free lane
+    uint64_t keys[FE__KEY_WORDS(FE__GROUP_KEYS)]; // those
+    uint64_t seen[FE__KEY_WORDS(FE__GROUP_KEYS)]; // of all batches
+    int32_t *joint_key_count;                     // likewise by part, colour and sides
     int32_t *joint_key_group;
+    uint64_t joint_keys[FE__KEY_WORDS(FE__JOINT_GROUP_KEYS)];
 } fe__builder;
+
+// To the count of a key, the first time from 0
+static inline void fe__count_key(uint64_t *keys, int32_t *count, int32_t key, int32_t more)
+{
+    uint64_t bit = UINT64_C(1) << key % FE__KEY_WORD;
+    if (!(keys[key / FE__KEY_WORD] & bit)) count[key] = 0;
+    keys[key / FE__KEY_WORD] |= bit;
+    count[key] += more;
+}
+
+// The least key in the set from `key` on, or `end`
+static inline int32_t fe__next_key(const uint64_t *keys, int32_t key, int32_t end)
+{
+    for (; key < end; key = (key / FE__KEY_WORD + 1) * FE__KEY_WORD) {
+        uint64_t bits = keys[key / FE__KEY_WORD] >> key % FE__KEY_WORD;
+        if (bits) return fe__mini(key + __builtin_ctzll(bits), end);
+    }
+    return end;
+}
 
 static inline const fe__body *fe__awake_body(const fe__builder *b, int32_t i)
 {

@@ -138,8 +138,7 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     enum { KEYS = FE__JOINT_COLOURS * FE__SIDES };
     fe__solver *s = b->s;
     int32_t first = part * (FE__JOINT_COLOURS + 1) * FE__SIDES;
-    for (int32_t key = first; key < first + KEYS; ++key) {
-        if (!b->joint_key_count[key]) continue;
+    for (int32_t key = first; (key = fe__next_key(b->joint_keys, key, first + KEYS)) < first + KEYS; ++key) {
         b->joint_key_group[key] = s->group_count;
         b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
     }
@@ -172,12 +171,12 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
 {
     fe__batch *batch = b->s->batches + k;
     if (!batch->joint_count) return;
-    memset(b->joint_key_count, 0, sizeof(int32_t) * FE__JOINT_GROUP_KEYS);
+    memset(b->joint_keys, 0, sizeof b->joint_keys);
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
         if (is_in_rope(b, b->joint_order[i])) continue;
         for (int32_t part = 0; part < FE__PARTS; ++part)
-            b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
+            if (j->rows >> part & 1) fe__count_key(b->joint_keys, b->joint_key_count, joint_key(part, j), 1);
     }
     int32_t overflowing = sort_overflow(b, k), first_tree = b->s->tree_count;
     for (int32_t i = 0; i < overflowing; ++i) {

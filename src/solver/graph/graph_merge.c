@@ -5,14 +5,12 @@
 
 #include <string.h>
 
-enum { WORD = 64, WORDS = (FE__MERGE_KEYS + WORD - 1) / WORD };
-
 typedef struct merger {
     fe__merge *m;
     fe__builder b; // the solver, its width, the forests
     const fe__kernels *kernels;
     int32_t pace;
-    uint64_t seen[WORDS]; // keys of the batch at hand, a bit each
+    uint64_t keys[FE__KEY_WORDS(FE__MERGE_KEYS)]; // of the batch at hand
 } merger;
 
 // ---- what may be merged --------------------------------------------------------------------------------------------
@@ -111,11 +109,7 @@ static void count_lanes(merger *g, const fe__solver *part, const fe__batch *from
     for (int32_t i = from->first_group; i < from->first_group + from->group_count; ++i) {
         const fe__group *group = part->groups + i;
         if (group->kind == FE__TREE_KIND) continue;
-        int32_t key = key_of(group);
-        uint64_t bit = UINT64_C(1) << key % WORD;
-        if (!(g->seen[key / WORD] & bit)) g->m->lane_of_key[key] = 0;
-        g->seen[key / WORD] |= bit;
-        g->m->lane_of_key[key] += lanes_of(part, group);
+        fe__count_key(g->keys, g->m->lane_of_key, key_of(group), lanes_of(part, group));
     }
 }
 
@@ -143,11 +137,7 @@ static void open_key(merger *g, fe__batch *batch, int32_t key)
 
 static void open_keys(merger *g, fe__batch *batch, int32_t first, int32_t end)
 {
-    for (int32_t word = first / WORD; word * WORD < end; ++word)
-        for (uint64_t bits = g->seen[word]; bits; bits &= bits - 1) {
-            int32_t key = word * WORD + __builtin_ctzll(bits);
-            if (key >= first && key < end) open_key(g, batch, key);
-        }
+    for (int32_t key = first; (key = fe__next_key(g->keys, key, end)) < end; ++key) open_key(g, batch, key);
 }
 
 // ---- lanes ---------------------------------------------------------------------------------------------------------
@@ -247,7 +237,7 @@ static void merge_pace(merger *g)
     fe__solver *s = &g->m->solver;
     fe__batch *batch = s->batches + s->batch_count;
     *batch = (fe__batch){.first_line = s->line_count, .first_group = s->group_count, .pace = g->pace};
-    memset(g->seen, 0, sizeof g->seen);
+    memset(g->keys, 0, sizeof g->keys);
     for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, NULL);
     visit(g, batch, begin_part);
     if (s->line_count == batch->first_line + FE__DUMMY_LINES) {
