@@ -629,7 +629,8 @@ typedef int32_t (*fe_pair_filter)(void *user, const fe_filter_pair *pair);
 /// @param user    handed to it
 FE_API fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user);
 
-/// Where the last step's time went, ms of the stepping thread's clock.
+/// Where the last step's time went, ms of the stepping thread's clock. A world of a batch has its share of `step`
+/// alone: reading the clock between stages would take a twentieth of it.
 typedef struct fe_profile {
     uint32_t struct_size;
     float step;       ///< all of it

@@ -193,9 +193,7 @@ static void make_step(crew *c, int32_t is_first)
 {
     for (int32_t i = 0; i < c->count; ++i)
         if (c->goes_on[i]) begin_step(c, i, is_first);
-    fe__lockstep_solve(c->lockstep);
-    for (int32_t i = 0; i < c->count; ++i)
-        if (c->goes_on[i]) fe__lockstep_end(c->lockstep, i);
+    fe__lockstep_finish(c->lockstep);
 }
 
 static void read_outputs(fe_batch *b, int32_t world)

@@ -56,10 +56,12 @@ static void give_rows(fe__lockstep *l, fe__lockstep_place *p)
 fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
 {
     fe__lockstep_place *p = l->places + place;
+    if (!l->open) l->began = fe__clock();
     take_rows(l, p);
-    fe_result result = fe__step_begin(&p->open, p->world, dt);
+    fe_result result = fe__step_begin(&p->open, p->world, dt, 0);
     give_rows(l, p);
     p->is_open = result == FE_OK;
+    l->open += p->is_open;
     p->part = FE__ALONE;
     return result;
 }
@@ -67,12 +69,9 @@ fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
 static int32_t can_join(const fe__lockstep *l, const fe__lockstep_place *p)
 {
     const fe__solver *s = &p->world->solver;
-    if (s->lane_count > FILLED || !fe__graph_can_merge(s)) return 0;
+    if (p->open.step.dt == 0.0f || s->lane_count > FILLED || !fe__graph_can_merge(s)) return 0;
     // worlds have their own gravity and tuning, and may have had another step before
-    const fe__lockstep_place *first = NULL;
-    for (const fe__lockstep_place *q = l->places; q < p && !first; ++q)
-        if (q->world && q->is_open && q->part != FE__ALONE) first = q;
-    return !first || !memcmp(first->input.paces, p->input.paces, sizeof p->input.paces);
+    return !l->leader || !memcmp(l->leader->input.paces, p->input.paces, sizeof p->input.paces);
 }
 
 static void join(fe__lockstep *l, fe__lockstep_place *p)
@@ -80,6 +79,7 @@ static void join(fe__lockstep *l, fe__lockstep_place *p)
     fe__merge *m = &l->merge;
     fe__begin_solve(&p->open.step, &p->input);
     if (!can_join(l, p)) return;
+    if (!l->leader) l->leader = p;
     p->part = m->count++;
     m->part[p->part] = &p->world->solver;
     m->of[p->part] = p->input.of;
@@ -91,35 +91,43 @@ static void separate(fe__lockstep *l)
     for (int32_t i = 0; i < FE__MERGE_MOST; ++i) l->places[i].part = FE__ALONE;
 }
 
-void fe__lockstep_solve(fe__lockstep *l)
+static void solve_together(fe__lockstep *l)
 {
     fe__merge *m = &l->merge;
-    const fe__lockstep_place *first = NULL;
-    double start = fe__clock();
-    m->count = 0;
-    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) {
-        if (!p->world || !p->is_open || p->open.step.dt == 0.0f) continue;
-        join(l, p);
-        if (!first && p->part != FE__ALONE) first = p;
-    }
-    if (m->count < 2 || !fe__graph_merge(m, &l->memory, first->world->kernels)) {
+    l->leader = NULL, m->count = 0;
+    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
+        if (p->is_open) join(l, p);
+    if (m->count < 2 || !fe__graph_merge(m, &l->memory, l->leader->world->kernels)) {
         separate(l);
         return;
     }
-    fe__solve(&m->solver, first->world->kernels, &first->world->workers, m->of, first->input.paces);
-    l->solving = (fe__clock() - start) / m->count;
+    const fe_world *w = l->leader->world;
+    fe__solve(&m->solver, w->kernels, &w->workers, m->of, l->leader->input.paces);
 }
 
-void fe__lockstep_end(fe__lockstep *l, int32_t place)
+static void end_step(fe__lockstep *l, fe__lockstep_place *p)
 {
-    fe__lockstep_place *p = l->places + place;
     take_rows(l, p);
     if (p->part != FE__ALONE) {
         fe__graph_return(&l->merge, p->part);
         fe__end_solve(&p->open.step);
-        fe__step_resume(&p->open, l->solving);
+        fe__step_resume(&p->open);
     }
     fe__step_end(&p->open);
     give_rows(l, p);
-    p->is_open = 0;
+}
+
+void fe__lockstep_finish(fe__lockstep *l)
+{
+    enum { MILLISECONDS = 1000 };
+    if (!l->open) return;
+    solve_together(l);
+    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
+        if (p->is_open) end_step(l, p);
+    double each = (fe__clock() - l->began) / l->open;
+    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) {
+        if (p->is_open) p->world->profile.step = (float)(each * MILLISECONDS);
+        p->is_open = 0;
+    }
+    l->open = 0;
 }

@@ -29,8 +29,10 @@ typedef struct fe__lockstep_place {
 typedef struct fe__lockstep {
     fe__memory memory;
     fe__lockstep_place places[FE__MERGE_MOST];
+    int32_t open;                     // places between the halves
+    double began;                     // when the first of them did, s
+    const fe__lockstep_place *leader; // whose constants the merged graph is solved with
     fe__merge merge;
-    double solving; // s, a world's share of the last solve
     fe__row_block *rows;
     int32_t row_capacity; // blocks
 } fe__lockstep;
@@ -42,7 +44,6 @@ void fe__lockstep_enter(fe__lockstep *l, int32_t place, fe_world *world);
 void fe__lockstep_leave(fe__lockstep *l, int32_t place); // whose step may have failed
 
 fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt); // of FE_ERROR_MEMORY nothing happened
-void fe__lockstep_solve(fe__lockstep *l);                               // all that began
-void fe__lockstep_end(fe__lockstep *l, int32_t place);                  // one that began
+void fe__lockstep_finish(fe__lockstep *l);                              // the steps of all that began
 
 #endif

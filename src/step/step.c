@@ -70,6 +70,7 @@ static void run_stages(fe__open_step *o, int32_t end)
         const stage *s = stages + o->next;
         if (s->moves && o->step.dt == 0.0f) continue;
         s->run(&o->step);
+        if (!o->is_timed) continue;
         double now = fe__clock();
         *(float *)(void *)((char *)&o->profile + s->time) += (float)((now - o->mark) * MILLISECONDS);
         o->profile.step += (float)((now - o->mark) * MILLISECONDS);
@@ -77,7 +78,7 @@ static void run_stages(fe__open_step *o, int32_t end)
     }
 }
 
-fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt)
+fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt, int32_t is_timed)
 {
     if (!fe__open_step_scratch(w)) return FE_ERROR_MEMORY;
     *o = (fe__open_step){.step = {.world = w,
@@ -86,7 +87,8 @@ fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt)
                                   .fall = fe__length(w->gravity) * dt * dt,
                                   .constants = fe__constants_of(w, dt, 1)},
                          .profile = {.struct_size = sizeof o->profile},
-                         .mark = fe__clock()};
+                         .is_timed = is_timed};
+    if (is_timed) o->mark = fe__clock();
     fe__pool_begin(w->workers.pool);
     run_stages(o, SOLVES);
     if (!o->step.failed) return FE_OK;
@@ -94,14 +96,7 @@ fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt)
     return FE_ERROR_MEMORY;
 }
 
-void fe__step_resume(fe__open_step *o, double solving)
-{
-    enum { MILLISECONDS = 1000 };
-    o->next = SOLVES + 1;
-    o->profile.solve = (float)(solving * MILLISECONDS);
-    o->profile.step += o->profile.solve;
-    o->mark = fe__clock();
-}
+void fe__step_resume(fe__open_step *o) { o->next = SOLVES + 1; }
 
 void fe__step_end(fe__open_step *o)
 {
@@ -116,7 +111,7 @@ void fe__step_end(fe__open_step *o)
 fe_result fe__world_step(fe_world *w, float dt)
 {
     fe__open_step o;
-    fe_result result = fe__step_begin(&o, w, dt);
+    fe_result result = fe__step_begin(&o, w, dt, 1);
     if (result == FE_OK) fe__step_end(&o);
     return result;
 }

@@ -10,12 +10,14 @@ fe_result fe__world_step(fe_world *world, float dt);
 typedef struct fe__open_step {
     fe__step step;
     fe_profile profile;
-    double mark;  // when the last stage ended, s
-    int32_t next; // stage
+    int32_t is_timed; // 1: each stage; 0: none
+    double mark;      // when the last stage ended, s
+    int32_t next;     // stage
 } fe__open_step;
 
-fe_result fe__step_begin(fe__open_step *open, fe_world *world, float dt); // of FE_ERROR_MEMORY it is over
-void fe__step_resume(fe__open_step *open, double solving);                // it is solved, which took so many seconds
+// FE_ERROR_MEMORY: nothing happened, and there is no second half
+fe_result fe__step_begin(fe__open_step *open, fe_world *world, float dt, int32_t is_timed);
+void fe__step_resume(fe__open_step *open); // it is solved already
 void fe__step_end(fe__open_step *open);
 
 #endif
