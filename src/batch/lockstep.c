@@ -2,6 +2,7 @@
 #include "batch/lockstep.h"
 
 #include "core/clock.h"
+#include "solver/graph/graph.h"
 #include "solver/solve.h"
 
 #include <string.h>
@@ -19,7 +20,7 @@ void fe__lockstep_free(fe__lockstep *l)
 {
     for (int32_t i = 0; i < FE__MERGE_MOST; ++i) fe__workroom_free(&l->places[i].room);
     fe__graph_free_merge(&l->merge, &l->memory);
-    FE_FREE(&l->memory, l->rows, l->row_capacity);
+    fe__solver_destroy(&l->lines, &l->memory);
 }
 
 void fe__lockstep_enter(fe__lockstep *l, int32_t place, fe_world *world)
@@ -36,20 +37,20 @@ void fe__lockstep_leave(fe__lockstep *l, int32_t place)
     p->world = NULL;
 }
 
-// ---- rows ----------------------------------------------------------------------------------------------------------
-static void take_rows(fe__lockstep *l, fe__lockstep_place *p)
+// ---- lines and rows ------------------------------------------------------------------------------------------------
+static void take_lines(fe__lockstep *l, fe__lockstep_place *p)
 {
     fe__solver *s = &p->world->solver;
-    s->rows = l->rows, s->row_capacity = l->row_capacity;
+    fe__solver_trade_lines(s, &l->lines);
     s->trail = s->rows ? (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + p->trail) : NULL;
 }
 
-static void give_rows(fe__lockstep *l, fe__lockstep_place *p)
+static void give_lines(fe__lockstep *l, fe__lockstep_place *p)
 {
     fe__solver *s = &p->world->solver;
     p->trail = s->rows ? (fe__row_block *)(void *)s->trail - s->rows : 0;
-    l->rows = s->rows, l->row_capacity = s->row_capacity;
-    s->rows = NULL, s->row_capacity = 0, s->trail = NULL;
+    s->trail = NULL;
+    fe__solver_trade_lines(s, &l->lines);
 }
 
 // ---- a step --------------------------------------------------------------------------------------------------------
@@ -57,9 +58,9 @@ fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
 {
     fe__lockstep_place *p = l->places + place;
     if (!l->open) l->began = fe__clock();
-    take_rows(l, p);
+    take_lines(l, p);
     fe_result result = fe__step_begin(&p->open, p->world, dt, 0);
-    give_rows(l, p);
+    give_lines(l, p);
     p->is_open = result == FE_OK;
     l->open += p->is_open;
     p->part = FE__ALONE;
@@ -107,14 +108,14 @@ static void solve_together(fe__lockstep *l)
 
 static void end_step(fe__lockstep *l, fe__lockstep_place *p)
 {
-    take_rows(l, p);
+    take_lines(l, p);
     if (p->part != FE__ALONE) {
         fe__graph_return(&l->merge, p->part);
         fe__end_solve(&p->open.step);
         fe__step_resume(&p->open);
     }
     fe__step_end(&p->open);
-    give_rows(l, p);
+    give_lines(l, p);
 }
 
 void fe__lockstep_finish(fe__lockstep *l)

@@ -3,8 +3,8 @@
 // Small worlds fill few lanes. So a worker takes several, brings each to where it would be solved, solves all of them
 // as one, and ends the step of each. Every world does what it does alone, bit for bit.
 //
-// Between the halves of a step each world has a workroom; rows are needed within a half only, so one block of them
-// goes round.
+// Between the halves of a step each world has a workroom. Lines and rows are needed within a half only, so one set of
+// them goes round.
 #ifndef FE_BATCH_LOCKSTEP_H
 #define FE_BATCH_LOCKSTEP_H
 #include "solver/graph/graph_merge.h"
@@ -33,8 +33,7 @@ typedef struct fe__lockstep {
     double began;                     // when the first of them did, s
     const fe__lockstep_place *leader; // whose constants the merged graph is solved with
     fe__merge merge;
-    fe__row_block *rows;
-    int32_t row_capacity; // blocks
+    fe__solver lines; // holds them and the rows while no world does
 } fe__lockstep;
 
 void fe__lockstep_init(fe__lockstep *l, const fe_allocator *allocator);

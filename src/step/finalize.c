@@ -290,5 +290,6 @@ void fe__put_islands_to_sleep(fe__step *step)
 void fe__give_back_rows(fe__step *step)
 {
     fe_world *w = step->world;
+    if (w->step_memory != &w->memory) return; // lent: others need them
     if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, w->step_memory);
 }

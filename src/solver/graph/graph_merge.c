@@ -23,27 +23,35 @@ int32_t fe__graph_can_merge(const fe__solver *part)
 }
 
 // ---- room ----------------------------------------------------------------------------------------------------------
+// of bodies, at most
+static int64_t body_lines(const fe__solver *part)
+{
+    return part->line_count - FE__MAX_WIDTH - (int64_t)part->batch_count * FE__DUMMY_LINES;
+}
+
 static int32_t reserve(fe__merge *m, fe__memory *memory, const fe__kernels *kernels)
 {
     fe__solver *s = &m->solver;
-    int64_t lanes = kernels->width, groups = 1, trees = 0, places = 0, of_parts = 0, bounces = 0, moved = 0;
+    int64_t lines = FE__MAX_WIDTH + FE__PACES * (FE__DUMMY_LINES + FE__MAX_WIDTH), lanes = kernels->width, groups = 1,
+            trees = 0, places = 0, of_parts = 0, bounces = 0, joints = 0;
     for (int32_t i = 0; i < m->count; ++i) {
         const fe__solver *part = m->part[i];
         m->first_line[i] = (int32_t)of_parts;
         m->of[i].first_place = (int32_t)places;
         lanes += part->lane_count + (int64_t)kernels->width * part->group_count;
         groups += part->group_count, trees += part->tree_count, of_parts += part->line_count;
+        lines += body_lines(part);
+        for (int32_t k = 0; k < part->batch_count; ++k)
+            joints |= part->batches[k].joint_count, bounces |= part->batches[k].bounces;
         places += m->of[i].joints->forest.link_count;
-        moved |= part->line_capacity[6], bounces |= part->touch_capacity[0];
     }
-    int64_t lines = FE__MAX_WIDTH + FE__PACES * (FE__DUMMY_LINES + FE__MAX_WIDTH) + of_parts;
     return FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
            FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
            FE_RESERVE(memory, s->start, s->line_capacity[2], lines) &&
            FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) &&
            FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) &&
            FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) &&
-           FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], moved ? lines : 0) &&
+           FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], joints ? lines : 0) &&
            FE_RENEW(memory, s->body_of_line, s->body_of_line_capacity, lines) &&
            FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
            FE_RENEW(memory, s->trail_of, s->trail_capacity[1], lines) &&
@@ -290,7 +298,8 @@ void fe__graph_return(const fe__merge *m, int32_t number)
         part->motion[i] = s->motion[line[i]];
         part->inertia[i].mark = s->inertia[line[i]].mark;
         strained |= part->inertia[i].mark != 0.0f;
-        if (part->moved_spin) memcpy(part->moved_spin[i], s->moved_spin[line[i]], sizeof *part->moved_spin);
+        if (part->motion[i].gyroscopic == (float)FE__GYROSCOPIC_JOINED)
+            memcpy(part->moved_spin[i], s->moved_spin[line[i]], sizeof *part->moved_spin);
         return_trail(s, line[i], part, i);
     }
     atomic_store(&part->strained, strained);

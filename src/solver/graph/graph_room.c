@@ -248,6 +248,37 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     fe__graph_forget(s);
 }
 
+#define TRADE(a, b)              \
+    do {                         \
+        __typeof__(a) kept_ = a; \
+        (a) = b, (b) = kept_;    \
+    } while (0)
+
+void fe__solver_trade_lines(fe__solver *s, fe__solver *t)
+{
+    TRADE(s->velocity, t->velocity);
+    TRADE(s->motion, t->motion);
+    TRADE(s->start, t->start);
+    TRADE(s->inertia, t->inertia);
+    TRADE(s->drive, t->drive);
+    TRADE(s->axes, t->axes);
+    TRADE(s->moved_spin, t->moved_spin);
+    for (int k = 0; k < 7; ++k) TRADE(s->line_capacity[k], t->line_capacity[k]);
+    TRADE(s->trail_count, t->trail_count);
+    TRADE(s->trail_of, t->trail_of);
+    TRADE(s->touches_of, t->touches_of);
+    TRADE(s->touch_of, t->touch_of);
+    TRADE(s->touches, t->touches);
+    for (int k = 0; k < 2; ++k) TRADE(s->trail_capacity[k], t->trail_capacity[k]);
+    for (int k = 0; k < 3; ++k) TRADE(s->touch_capacity[k], t->touch_capacity[k]);
+    TRADE(s->passes, t->passes);
+    TRADE(s->pass_capacity, t->pass_capacity);
+    TRADE(s->sort_items, t->sort_items);
+    TRADE(s->sort_capacity, t->sort_capacity);
+    TRADE(s->rows, t->rows);
+    TRADE(s->row_capacity, t->row_capacity);
+}
+
 void fe__graph_forget(fe__solver *s)
 {
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
