@@ -3,9 +3,6 @@
 
 #include "core/clock.h"
 #include "solver/graph/graph.h"
-#include "solver/solve.h"
-
-#include <string.h>
 
 // Lanes from which on a world fills its rows by itself: of hundreds, few groups are smaller than a row
 enum { FILLED = 1024 };
@@ -72,18 +69,17 @@ static int32_t can_join(const fe__lockstep *l, const fe__lockstep_place *p)
     const fe__solver *s = &p->world->solver;
     if (p->open.step.dt == 0.0f || s->lane_count > FILLED || !fe__graph_can_merge(s)) return 0;
     // worlds have their own gravity and tuning, and may have had another step before
-    return !l->leader || !memcmp(l->leader->input.paces, p->input.paces, sizeof p->input.paces);
+    return !l->leader || fe__solves_alike(l->leader->world, p->world);
 }
 
 static void join(fe__lockstep *l, fe__lockstep_place *p)
 {
     fe__merge *m = &l->merge;
-    fe__begin_solve(&p->open.step, &p->input);
     if (!can_join(l, p)) return;
     if (!l->leader) l->leader = p;
     p->part = m->count++;
     m->part[p->part] = &p->world->solver;
-    m->of[p->part] = p->input.of;
+    m->of[p->part] = fe__begin_solve(&p->open.step);
     atomic_store(&p->world->solver.engaged, 0);
 }
 
@@ -102,8 +98,7 @@ static void solve_together(fe__lockstep *l)
         separate(l);
         return;
     }
-    const fe_world *w = l->leader->world;
-    fe__solve(&m->solver, w->kernels, &w->workers, m->of, l->leader->input.paces);
+    fe__solve_with(&l->leader->open.step, &m->solver, m->of);
 }
 
 static void end_step(fe__lockstep *l, fe__lockstep_place *p)

@@ -19,7 +19,6 @@ typedef struct fe__lockstep_place {
     fe_world *world; // NULL: nobody is here
     fe__workroom room;
     fe__open_step open;
-    fe__solve_input input;
     int64_t trail;   // blocks of rows before its trails
     int32_t is_open; // 1: between the halves of a step
     int32_t part;    // of the merged graph that solved it, FE__ALONE: it solves itself

@@ -559,8 +559,6 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
                const fe__step_constants constants[FE__PACES])
 {
     job j = {.s = s, .k = kernels, .of = of};
-    atomic_store(&s->engaged, 0);
-    if (!s->batch_count) return; // all sleep; there may be no lines at all
     set_constants(&j, constants);
     clear_static_line(s);
     atomic_store(&s->trails, 0);

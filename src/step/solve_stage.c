@@ -7,6 +7,7 @@
 #include "world/points.h"
 
 #include <float.h>
+#include <string.h>
 
 // Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a
 // guess
@@ -114,18 +115,32 @@ static void note_approaches(fe_world *w)
     }
 }
 
-void fe__begin_solve(const fe__step *step, fe__solve_input *out_input)
+int32_t fe__solves_alike(const fe_world *w, const fe_world *other)
+{
+    return w->substeps == other->substeps && w->last_h == other->last_h &&
+           !memcmp(&w->gravity, &other->gravity, sizeof w->gravity) &&
+           !memcmp(&w->tuning, &other->tuning, sizeof w->tuning);
+}
+
+fe__records fe__begin_solve(const fe__step *step)
 {
     fe_world *w = step->world;
     note_approaches(w);
-    constants_of_paces(w, step->dt, out_input->paces);
-    out_input->of = (fe__records){.contacts = w->contacts,
-                                  .points = w->points,
-                                  .extras = w->extras,
-                                  .serials = w->point_serials,
-                                  .bodies = w->bodies,
-                                  .joints = &w->joints,
-                                  .engaged = &w->solver.engaged};
+    return (fe__records){.contacts = w->contacts,
+                         .points = w->points,
+                         .extras = w->extras,
+                         .serials = w->point_serials,
+                         .bodies = w->bodies,
+                         .joints = &w->joints,
+                         .engaged = &w->solver.engaged};
+}
+
+void fe__solve_with(const fe__step *step, fe__solver *solver, const fe__records *of)
+{
+    const fe_world *w = step->world;
+    fe__step_constants paces[FE__PACES];
+    constants_of_paces(w, step->dt, paces);
+    fe__solve(solver, w->kernels, &w->workers, of, paces);
 }
 
 void fe__end_solve(const fe__step *step)
@@ -137,9 +152,11 @@ void fe__end_solve(const fe__step *step)
 
 void fe__solve_islands(fe__step *step)
 {
-    fe_world *w = step->world;
-    fe__solve_input in;
-    fe__begin_solve(step, &in);
-    fe__solve(&w->solver, w->kernels, &w->workers, &in.of, in.paces);
+    fe__solver *s = &step->world->solver;
+    atomic_store(&s->engaged, 0);
+    if (s->batch_count) { // else all sleep; there may be no lines at all
+        const fe__records of = fe__begin_solve(step);
+        fe__solve_with(step, s, &of);
+    }
     fe__end_solve(step);
 }
