@@ -92,13 +92,13 @@ static float gyroscopic_kind(const fe__body *body)
     return body->joint_count ? FE__GYROSCOPIC_JOINED : FE__GYROSCOPIC_FREE;
 }
 
-FE_INLINE void load_block(fe__solver *s, int32_t line, const fe__step_constants *c)
+FE_INLINE void load_block(fe__solver *s, const fe__records *of, int32_t line, const fe__step_constants *c)
 {
     void *body[FE_W];
     _Alignas(64) float scale[FE_W], gyroscopic[FE_W], is_there[FE_W];
     int locked = 0, joined = 0;
     for (int i = 0; i < FE_W; ++i) {
-        fe__body *b = s->body_of_line[line + i];
+        fe__body *b = fe__body_of_line(s, of, line + i);
         is_there[i] = b ? 1.0f : 0.0f;
         if (!b) b = (fe__body *)(uintptr_t)&nobody;
         body[i] = b;
@@ -135,9 +135,9 @@ FE_INLINE void load_block(fe__solver *s, int32_t line, const fe__step_constants 
     }
 }
 
-static void load(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
+static void load(fe__solver *s, const fe__records *of, int32_t first, int32_t count, const fe__step_constants *c)
 {
-    for (int32_t i = first; i < first + count; i += FE_W) load_block(s, i, c);
+    for (int32_t i = first; i < first + count; i += FE_W) load_block(s, of, i, c);
 }
 
 // ---- gyroscopic torque ----------------------------------------------------------------------------------------------

@@ -264,7 +264,7 @@ static int32_t is_held(const chain *k, int32_t line, float change)
 {
     const fe__velocity_line *now = k->s->velocity + line;
     const fe__start_line *start = k->s->start + line;
-    if (k->s->body_of_line[line]->joint_count)
+    if (fe__body_of_line(k->s, k->of, line)->joint_count)
         return speed_of(now->v) > (1.0f + GAINED) * speed_of(start->v) + GAINED_SPEED + JOINED_SHARE * change;
     float most = (1.0f + GAINED) * sqrtf(energy_of(k->s, line, start->v, start->w)) + GAINED_SPEED;
     return energy_of(k->s, line, now->v, now->w) > most * most;

@@ -194,7 +194,7 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
 {
     float dt = (float)c->substeps * c->h;
     for (int32_t i = first; i < first + count; ++i) {
-        const fe__body *body = j->s->body_of_line[i];
+        const fe__body *body = fe__body_of_line(j->s, j->of, i);
         int32_t fast = body && body->speed * dt > body->thickness;
         j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
         if (fast) j->s->trail_of[i] = atomic_fetch_add_explicit(&j->s->trails, 1, memory_order_relaxed);
@@ -218,7 +218,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     int32_t first = b->first_line + block * LINES_IN_BLOCK,
             count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
     const fe__body_kernels *k = j->k->body;
-    if (verb == LOAD) k->load(j->s, first, count, c);
+    if (verb == LOAD) k->load(j->s, j->of, first, count, c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
     if (verb == LOAD) begin_trails(j, first, count, c);
     if (verb == BALANCE) k->balance_spins(j->s, first, count, c);
@@ -494,10 +494,10 @@ static uint32_t flag_of_strain(fe__solver *s, const fe__batch *b, const fe__body
 }
 
 // the marks of the lines to the bodies, and all that is true of an island's bodies to `found`
-static void note_marks(fe__solver *s, const fe__batch *b, uint32_t *found, uint32_t joined)
+static void note_marks(fe__solver *s, const fe__records *of, const fe__batch *b, uint32_t *found, uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
-        fe__body *body = s->body_of_line[line];
+        fe__body *body = fe__body_of_line(s, of, line);
         if (!body || body->type != FE_BODY_DYNAMIC) continue;
         float mark = s->inertia[line].mark;
         uint32_t flag = 0;
@@ -509,10 +509,11 @@ static void note_marks(fe__solver *s, const fe__batch *b, uint32_t *found, uint3
     }
 }
 
-static int32_t has_pace(const fe__solver *s, const fe__batch *b, const uint32_t *found, uint32_t joined)
+static int32_t has_pace(const fe__solver *s, const fe__records *of, const fe__batch *b, const uint32_t *found,
+                        uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
-        const fe__body *body = s->body_of_line[line];
+        const fe__body *body = fe__body_of_line(s, of, line);
         if (!body || body->type != FE_BODY_DYNAMIC) continue;
         if (fe__pace_of(found[body->island], (found[body->island] & joined) != 0) != b->pace) return 0;
     }
@@ -521,7 +522,7 @@ static int32_t has_pace(const fe__solver *s, const fe__batch *b, const uint32_t 
 
 // Strained and stretched islands of the next step are those with a body that was in this one; another set of them is
 // another graph.
-static void note_strain(fe__solver *s)
+static void note_strain(fe__solver *s, const fe__records *of)
 {
     const uint32_t joined = 1; // a bit that is none of the two flags
     int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed) | s->burdened;
@@ -531,10 +532,10 @@ static void note_strain(fe__solver *s)
     s->burdened = 0;
     memset(found, 0, sizeof *found * (size_t)s->island_count);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
-        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, found, joined);
+        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, of, s->batches + i, found, joined);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
         if (i >= s->large_count || s->batches[i].joint_count)
-            s->graph_changed |= !has_pace(s, s->batches + i, found, joined);
+            s->graph_changed |= !has_pace(s, of, s->batches + i, found, joined);
 }
 
 // A group has one row at most in which loose contacts lie beside others, when it is built. As loads come and go there
@@ -577,9 +578,9 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
 }
 
-void fe__note_solved(fe__solver *s, const fe__kernels *kernels)
+void fe__note_solved(fe__solver *s, const fe__kernels *kernels, const fe__records *of)
 {
     if (!s->batch_count) return;
-    note_strain(s);
+    note_strain(s, of);
     note_mixed(s, kernels->width);
 }

@@ -8,7 +8,7 @@
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__records *of,
                const fe__step_constants constants[FE__PACES]);
 // After it: which islands the next step solves in another way, and whether it needs another graph
-void fe__note_solved(fe__solver *s, const fe__kernels *kernels);
+void fe__note_solved(fe__solver *s, const fe__kernels *kernels, const fe__records *of);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 
 #endif

@@ -194,10 +194,13 @@ typedef struct fe__records {
     _Atomic int32_t *engaged; // fe__solver.engaged of the world
 } fe__records;
 
-// A tree of the forest of such a world
+// A tree of the forest of such a world; a body of it, -1: none
 typedef struct fe__tree_name {
     int32_t home, tree;
 } fe__tree_name;
+typedef struct fe__body_name {
+    int32_t home, body;
+} fe__body_name;
 
 enum {
     FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
@@ -258,7 +261,7 @@ typedef struct fe__solver {
     fe__axes_line *axes;
     float (*moved_spin)[4]; // by line of FE__GYROSCOPIC_JOINED: by what it rotated in the last substep, rad/s, 0
     int32_t line_count, line_capacity[7];
-    fe__body **body_of_line; // NULL: padding
+    fe__body_name *body_of_line; // by index: a graph lives on when the world's bodies move to a larger array
     int32_t body_of_line_capacity;
 
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
@@ -306,6 +309,13 @@ typedef struct fe__solver {
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
 } fe__solver;
+
+// NULL: padding
+static inline fe__body *fe__body_of_line(const fe__solver *s, const fe__records *of, int32_t line)
+{
+    const fe__body_name name = s->body_of_line[line];
+    return name.body < 0 ? NULL : of[name.home].bodies + name.body;
+}
 
 static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
@@ -375,7 +385,7 @@ typedef struct fe__joint_kernels {
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH
 typedef struct fe__body_kernels {
-    void (*load)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*load)(fe__solver *s, const fe__records *of, int32_t first, int32_t count, const fe__step_constants *c);
     void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*balance_spins)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);

@@ -122,10 +122,8 @@ int32_t fe__solves_alike(const fe_world *w, const fe_world *other)
            !memcmp(&w->tuning, &other->tuning, sizeof w->tuning);
 }
 
-fe__records fe__begin_solve(const fe__step *step)
+static fe__records records_of(fe_world *w)
 {
-    fe_world *w = step->world;
-    note_approaches(w);
     return (fe__records){.contacts = w->contacts,
                          .points = w->points,
                          .extras = w->extras,
@@ -133,6 +131,12 @@ fe__records fe__begin_solve(const fe__step *step)
                          .bodies = w->bodies,
                          .joints = &w->joints,
                          .engaged = &w->solver.engaged};
+}
+
+fe__records fe__begin_solve(const fe__step *step)
+{
+    note_approaches(step->world);
+    return records_of(step->world);
 }
 
 void fe__solve_with(const fe__step *step, fe__solver *solver, const fe__records *of)
@@ -145,7 +149,8 @@ void fe__solve_with(const fe__step *step, fe__solver *solver, const fe__records 
 
 void fe__end_solve(const fe__step *step)
 {
-    fe__note_solved(&step->world->solver, step->world->kernels);
+    const fe__records of = records_of(step->world);
+    fe__note_solved(&step->world->solver, step->world->kernels, &of);
     step->world->last_h = step->constants.h;
     step->world->last_dt = step->dt;
 }

@@ -50,19 +50,19 @@ static fe__builder make_builder(fe__solver *s, const fe__kernels *kernels, const
 }
 
 // ---- lines ----------------------------------------------------------------------------------------------------------
+static void add_line(fe__solver *s, int32_t body) { s->body_of_line[s->line_count++] = (fe__body_name){0, body}; }
+
 static void close_block(fe__solver *s)
 {
-    while (s->line_count % FE__MAX_WIDTH) s->body_of_line[s->line_count++] = NULL;
+    while (s->line_count % FE__MAX_WIDTH) add_line(s, FE__NONE);
 }
-
-static void add_line(fe__solver *s, fe__body *body) { s->body_of_line[s->line_count++] = body; }
 
 static void add_kinematic(fe__builder *b, const fe__batch *batch, int32_t awake)
 {
     if (awake < 0 || !fe__is_kinematic(fe__awake_body(b, awake)) || b->kinematic_line[awake] >= batch->first_line)
         return;
     b->kinematic_line[awake] = b->s->line_count;
-    add_line(b->s, b->in->bodies + b->in->awake_bodies[awake]);
+    add_line(b->s, b->in->awake_bodies[awake]);
 }
 
 // its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves
@@ -72,12 +72,12 @@ static void assign_lines(fe__builder *b, int32_t k)
     fe__solver *s = b->s;
     fe__batch *batch = s->batches + k;
     batch->first_line = s->line_count;
-    for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, NULL);
+    for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, FE__NONE);
     for (int32_t i = b->body_start[k]; i < b->body_start[k + 1]; ++i) {
         fe__body *body = b->in->bodies + b->in->awake_bodies[b->body_order[i]];
         body->line = b->line[b->body_order[i]] = s->line_count;
         body->island = b->island_of[b->body_order[i]];
-        add_line(s, body);
+        add_line(s, b->in->awake_bodies[b->body_order[i]]);
     }
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         const fe__linked *c = b->linked + b->contact_order[i];
@@ -187,7 +187,7 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
     s->group_count = s->lane_count = s->line_count = s->tree_count = 0;
     s->built = (fe__built){.overflow = 0};
     s->unbuilt = 0;
-    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, NULL); // FE__STATIC_LINE and its block
+    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, FE__NONE); // FE__STATIC_LINE and its block
     for (int32_t k = 0; k < s->batch_count; ++k) {
         assign_lines(&b, k);
         make_groups(&b, k, kernels);

@@ -82,7 +82,10 @@ static int32_t reserve_rows(fe__solver *s, fe__memory *memory)
 }
 
 // ---- lines ---------------------------------------------------------------------------------------------------------
-static void add_line(fe__solver *s, fe__body *body) { s->body_of_line[s->line_count++] = body; }
+static void add_line(fe__solver *s, int32_t part, int32_t body)
+{
+    s->body_of_line[s->line_count++] = (fe__body_name){part, body};
+}
 
 static void add_lines(fe__merge *m, int32_t part, const fe__batch *from)
 {
@@ -90,9 +93,9 @@ static void add_lines(fe__merge *m, int32_t part, const fe__batch *from)
     int32_t *line = m->line + m->first_line[part];
     line[FE__STATIC_LINE] = FE__STATIC_LINE;
     for (int32_t i = from->first_line; i < from->first_line + from->line_count; ++i) {
-        if (!p->body_of_line[i]) continue;
+        if (p->body_of_line[i].body < 0) continue;
         line[i] = m->solver.line_count;
-        add_line(&m->solver, p->body_of_line[i]);
+        add_line(&m->solver, part, p->body_of_line[i].body);
     }
 }
 
@@ -246,13 +249,13 @@ static void merge_pace(merger *g)
     fe__batch *batch = s->batches + s->batch_count;
     *batch = (fe__batch){.first_line = s->line_count, .first_group = s->group_count, .pace = g->pace};
     memset(g->keys, 0, sizeof g->keys);
-    for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, NULL);
+    for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, 0, FE__NONE);
     visit(g, batch, begin_part);
     if (s->line_count == batch->first_line + FE__DUMMY_LINES) {
         s->line_count = batch->first_line;
         return;
     }
-    while (s->line_count % FE__MAX_WIDTH) add_line(s, NULL);
+    while (s->line_count % FE__MAX_WIDTH) add_line(s, 0, FE__NONE);
     batch->line_count = s->line_count - batch->first_line;
     int32_t first_tree = s->tree_count;
     open_keys(g, batch, 0, FE__JOINT_GROUP_KEYS);
@@ -271,7 +274,7 @@ int32_t fe__graph_merge(fe__merge *m, fe__memory *memory, const fe__kernels *ker
     if (!reserve(m, memory, kernels)) return 0;
     merger g = {.m = m, .b = {.s = s, .of = m->of, .width = kernels->width}, .kernels = kernels};
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->tree_count = 0;
-    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, NULL); // FE__STATIC_LINE and its block
+    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, 0, FE__NONE); // FE__STATIC_LINE and its block
     for (g.pace = FE__USUAL; g.pace < FE__PACES; ++g.pace) merge_pace(&g);
     return reserve_rows(s, memory);
 }
@@ -293,7 +296,7 @@ void fe__graph_return(const fe__merge *m, int32_t number)
     int32_t strained = 0;
     atomic_store(&part->trails, 0);
     for (int32_t i = FE__MAX_WIDTH; i < part->line_count; ++i) {
-        if (!part->body_of_line[i]) continue;
+        if (part->body_of_line[i].body < 0) continue;
         part->velocity[i] = s->velocity[line[i]];
         part->motion[i] = s->motion[line[i]];
         part->inertia[i].mark = s->inertia[line[i]].mark;
