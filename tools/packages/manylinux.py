@@ -4,8 +4,9 @@
 N is the newest version of glibc among their symbols. A binary that needs a library outside PEP 600's list is refused:
 such a wheel would not load on another machine.
 
-Usage: manylinux.py WHEEL FOLDER
+Usage: manylinux.py WHEEL FOLDER      with OBJDUMP, if the wheel is for another machine
 """
+import os
 import re
 import subprocess
 import sys
@@ -13,12 +14,21 @@ import tempfile
 from pathlib import Path
 
 # what every Linux with that glibc has
-ALLOWED = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+ALLOWED = {
+    "libc.so.6",
+    "libm.so.6",
+    "libpthread.so.0",
+    "libdl.so.2",
+    "librt.so.1",
+    "ld-linux-x86-64.so.2",
+    "ld-linux-aarch64.so.1",
+}
+OBJDUMP = os.environ.get("OBJDUMP", "objdump")
 HERE = Path(__file__).resolve().parent
 
 
 def needed(binary):
-    text = subprocess.run(["objdump", "-p", binary], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run([OBJDUMP, "-p", binary], capture_output=True, text=True, check=True).stdout
     return set(re.findall(r"NEEDED\s+(\S+)", text))
 
 
@@ -37,7 +47,9 @@ def main():
         sys.exit(__doc__)
     wheel, folder = map(Path, sys.argv[1:])
     with tempfile.TemporaryDirectory() as work:
-        subprocess.run([sys.executable, "-m", "wheel", "unpack", "--dest", work, wheel], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [sys.executable, "-m", "wheel", "unpack", "--dest", work, wheel], check=True, stdout=subprocess.DEVNULL
+        )
         (tree,) = Path(work).iterdir()
         name = tag(sorted(tree.rglob("*.so")))
         (info,) = tree.glob("*.dist-info/WHEEL")
@@ -45,7 +57,9 @@ def main():
         if count == 0:
             sys.exit(f"{wheel.name} has no tag of Linux.")
         info.write_text(text)
-        subprocess.run([sys.executable, "-m", "wheel", "pack", "--dest-dir", folder, tree], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [sys.executable, "-m", "wheel", "pack", "--dest-dir", folder, tree], check=True, stdout=subprocess.DEVNULL
+        )
 
 
 main()
