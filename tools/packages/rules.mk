@@ -24,9 +24,11 @@ $(PACKAGES)/core/%/libfeather.a: FORCE
 	@+env -u CC -u AR $(MAKE) --no-print-directory BUILD=$(PACKAGES)/core/$* CC=$(COMPILER_$*) AR=$(COMPILER_$*:gcc=ar) \
 	    WERROR=0 all
 
-# the source distribution, and a wheel made of it
-package-python: static
-	$(RUN)$(ALONE) tools/packages/python $(PYTHON) $(STATIC) $(PACKAGES)
+# the source distribution, and wheels made of it
+PACKAGE_WHEELS := $(filter linux-%,$(PACKAGE_CROSS))
+package-python: static $(PACKAGE_WHEELS:%=$(PACKAGES)/core/%/libfeather.a)
+	$(RUN)$(ALONE) tools/packages/python $(PYTHON) $(PACKAGES) '$(PACKAGE_HOST)=$(STATIC)=$(CC)' \
+	    $(foreach target,$(PACKAGE_WHEELS),$(target)=$(PACKAGES)/core/$(target)/libfeather.a=$(COMPILER_$(target)))
 
 package-deb: package-cores
 	@rm -rf $(PACKAGES)/deb
