@@ -69,12 +69,13 @@ FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
     row->follows = w_set(0.0f);
 }
 
-// Scalar, a lane at a time: special rows are few
+// Scalar, a lane at a time: special rows are few. The world that a padding lane names may have no extras at all
 FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__records *of, const fe__lane *lanes,
                                       const fe__step_constants *c)
 {
+    static const fe__extra none = {.restitution = 0.0f};
     for (int i = 0; i < FE_W; ++i) {
-        const fe__extra *e = of[lanes[i].home].extras + lanes[i].points;
+        const fe__extra *e = lanes[i].points ? of[lanes[i].home].extras + lanes[i].points : &none;
         const fe__velocity_line *a = s->velocity + x->row.line_a[i], *b = s->velocity + x->row.line_b[i];
         int locks_a = (int)a->lock_bits, locks_b = (int)b->lock_bits;
         for (int k = 0; k < 3; ++k) {
