@@ -35,17 +35,14 @@ void fe__lockstep_leave(fe__lockstep *l, int32_t place)
 }
 
 // ---- lines and rows ------------------------------------------------------------------------------------------------
-static void take_lines(fe__lockstep *l, fe__lockstep_place *p)
+static void take_lines(fe__lockstep *l, const fe__lockstep_place *p)
 {
-    fe__solver *s = &p->world->solver;
-    fe__solver_trade_lines(s, &l->lines);
-    s->trail = s->rows ? (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + p->trail) : NULL;
+    fe__solver_trade_lines(&p->world->solver, &l->lines);
 }
 
-static void give_lines(fe__lockstep *l, fe__lockstep_place *p)
+static void give_lines(fe__lockstep *l, const fe__lockstep_place *p)
 {
     fe__solver *s = &p->world->solver;
-    p->trail = s->rows ? (fe__row_block *)(void *)s->trail - s->rows : 0;
     s->trail = NULL;
     fe__solver_trade_lines(s, &l->lines);
 }
@@ -54,9 +51,11 @@ static void give_lines(fe__lockstep *l, fe__lockstep_place *p)
 fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
 {
     fe__lockstep_place *p = l->places + place;
+    const fe__solver *s = &p->world->solver;
     if (!l->open) l->began = fe__clock();
     take_lines(l, p);
     fe_result result = fe__step_begin(&p->open, p->world, dt, 0);
+    p->trail = s->trail ? (fe__row_block *)(void *)s->trail - s->rows : 0; // none where nobody is awake
     give_lines(l, p);
     p->is_open = result == FE_OK;
     l->open += p->is_open;
@@ -103,7 +102,9 @@ static void solve_together(fe__lockstep *l)
 
 static void end_step(fe__lockstep *l, fe__lockstep_place *p)
 {
+    fe__solver *s = &p->world->solver;
     take_lines(l, p);
+    s->trail = (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + p->trail);
     if (p->part != FE__ALONE) {
         fe__graph_return(&l->merge, p->part);
         fe__end_solve(&p->open.step);
