@@ -18,6 +18,8 @@ typedef struct stage {
     int32_t moves; // 1: left out when dt is 0
 } stage;
 
+static void count(fe__step *step);
+
 static const stage stages[] = {
     {fe__find_new_pairs, offsetof(fe_profile, pairs), 0}, // queries of moved proxies -> new pairs; all memory reserved
     {fe__update_contacts, offsetof(fe_profile, collide),
@@ -30,12 +32,13 @@ static const stage stages[] = {
     {fe__collect_events, offsetof(fe_profile, events), 0},       // touching begun, kept, ended; impacts
     {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},  // islands slow for long enough
     {fe__collect_body_events, offsetof(fe_profile, sleep), 0},   // who woke, who fell asleep
+    {count, offsetof(fe_profile, sleep), 0},                     // what the step did, for who asks
     {fe__give_back_rows, offsetof(fe_profile, sleep), 1},        // of a world that sleeps
 };
 
 enum { STAGES = sizeof stages / sizeof *stages, SOLVES = 3 }; // the stage that solves
 
-static void count(const fe__step *step)
+static void count(fe__step *step)
 {
     fe_world *w = step->world;
     const fe__solver *s = &w->solver;
@@ -105,7 +108,6 @@ void fe__step_end(fe__open_step *o)
     fe__pool_end(w->workers.pool);
     w->profile = o->profile;
     w->step_number += 1;
-    count(&o->step);
 }
 
 fe_result fe__world_step(fe_world *w, float dt)
