@@ -160,6 +160,7 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
 {
     int32_t end = world->awake_body_count, low = end;
     if (world->bodies[body].awake_index < 0) return FE_OK;
+    world->solver.graph_changed = 1; // also when nobody falls asleep: islands have numbers in the order of the list
     swap_places(world, world->bodies[body].awake_index, --low);
     for (int32_t next = end - 1; next >= low; --next) {
         int32_t at = world->awake_bodies[next];
@@ -170,7 +171,6 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
         for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
             gather(world, joined_dynamic(world, joint, at), &low);
     }
-    world->solver.graph_changed = 1;
     while (world->awake_body_count > low) fe__body_fall_asleep(world, world->awake_bodies[world->awake_body_count - 1]);
     return FE_OK;
 }
