@@ -4,8 +4,9 @@
 #include "core/clock.h"
 #include "solver/graph/graph.h"
 
-// Lanes from which on a world fills its rows by itself: of hundreds, few groups are smaller than a row
-enum { FILLED = 1024 };
+// Lanes or lines from which on a world fills its rows by itself: of hundreds, few groups are smaller than a row, and
+// those of 16 worlds would leave the cache
+enum { FILLED = 256 };
 
 void fe__lockstep_init(fe__lockstep *l, const fe_allocator *allocator)
 {
@@ -48,6 +49,27 @@ static void give_lines(fe__lockstep *l, const fe__lockstep_place *p)
 }
 
 // ---- a step --------------------------------------------------------------------------------------------------------
+static void end_step(fe__lockstep *l, fe__lockstep_place *p)
+{
+    fe__solver *s = &p->world->solver;
+    take_lines(l, p);
+    s->trail = (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + p->trail);
+    if (p->part >= 0) {
+        fe__graph_return(&l->merge, p->part);
+        fe__end_solve(&p->open.step);
+        fe__step_resume(&p->open);
+    }
+    fe__step_end(&p->open);
+    give_lines(l, p);
+    p->part = FE__OVER;
+}
+
+static int32_t may_join(const fe__lockstep_place *p)
+{
+    const fe__solver *s = &p->world->solver;
+    return p->open.step.dt > 0.0f && s->lane_count <= FILLED && s->line_count <= FILLED && fe__graph_can_merge(s);
+}
+
 fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
 {
     fe__lockstep_place *p = l->places + place;
@@ -60,21 +82,15 @@ fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
     p->is_open = result == FE_OK;
     l->open += p->is_open;
     p->part = FE__ALONE;
+    if (p->is_open && !may_join(p)) end_step(l, p); // while it lies in the cache
     return result;
-}
-
-static int32_t can_join(const fe__lockstep *l, const fe__lockstep_place *p)
-{
-    const fe__solver *s = &p->world->solver;
-    if (p->open.step.dt == 0.0f || s->lane_count > FILLED || !fe__graph_can_merge(s)) return 0;
-    // worlds have their own gravity and tuning, and may have had another step before
-    return !l->leader || fe__solves_alike(l->leader->world, p->world);
 }
 
 static void join(fe__lockstep *l, fe__lockstep_place *p)
 {
     fe__merge *m = &l->merge;
-    if (!can_join(l, p)) return;
+    // worlds have their own gravity and tuning, and may have had another step before
+    if (l->leader && !fe__solves_alike(l->leader->world, p->world)) return;
     if (!l->leader) l->leader = p;
     p->part = m->count++;
     m->part[p->part] = &p->world->solver;
@@ -84,7 +100,8 @@ static void join(fe__lockstep *l, fe__lockstep_place *p)
 
 static void separate(fe__lockstep *l)
 {
-    for (int32_t i = 0; i < FE__MERGE_MOST; ++i) l->places[i].part = FE__ALONE;
+    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
+        if (p->part != FE__OVER) p->part = FE__ALONE;
 }
 
 static void solve_together(fe__lockstep *l)
@@ -92,26 +109,12 @@ static void solve_together(fe__lockstep *l)
     fe__merge *m = &l->merge;
     l->leader = NULL, m->count = 0;
     for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
-        if (p->is_open) join(l, p);
+        if (p->is_open && p->part != FE__OVER) join(l, p);
     if (m->count < 2 || !fe__graph_merge(m, &l->memory, l->leader->world->kernels)) {
         separate(l);
         return;
     }
     fe__solve_with(&l->leader->open.step, &m->solver, m->of);
-}
-
-static void end_step(fe__lockstep *l, fe__lockstep_place *p)
-{
-    fe__solver *s = &p->world->solver;
-    take_lines(l, p);
-    s->trail = (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + p->trail);
-    if (p->part != FE__ALONE) {
-        fe__graph_return(&l->merge, p->part);
-        fe__end_solve(&p->open.step);
-        fe__step_resume(&p->open);
-    }
-    fe__step_end(&p->open);
-    give_lines(l, p);
 }
 
 void fe__lockstep_finish(fe__lockstep *l)
@@ -120,7 +123,7 @@ void fe__lockstep_finish(fe__lockstep *l)
     if (!l->open) return;
     solve_together(l);
     for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
-        if (p->is_open) end_step(l, p);
+        if (p->is_open && p->part != FE__OVER) end_step(l, p);
     double each = (fe__clock() - l->began) / l->open;
     for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) {
         if (p->is_open) p->world->profile.step = (float)(each * MILLISECONDS);

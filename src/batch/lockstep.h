@@ -12,7 +12,7 @@
 #include "step/step.h"
 #include "world/workroom.h"
 
-enum { FE__ALONE = -1 };
+enum { FE__ALONE = -1, FE__OVER = -2 };
 
 // A world's place
 typedef struct fe__lockstep_place {
@@ -20,8 +20,8 @@ typedef struct fe__lockstep_place {
     fe__workroom room;
     fe__open_step open;
     int64_t trail;   // blocks of rows before its trails
-    int32_t is_open; // 1: between the halves of a step
-    int32_t part;    // of the merged graph that solved it, FE__ALONE: it solves itself
+    int32_t is_open; // 1: its step has begun, and fe__lockstep_finish is to come
+    int32_t part;    // of the merged graph that solved it; FE__ALONE: it solves itself; FE__OVER: its step has ended
 } fe__lockstep_place;
 
 // Of one worker
