@@ -86,12 +86,26 @@ fe_result fe__lockstep_begin(fe__lockstep *l, int32_t place, float dt)
     return result;
 }
 
+static int32_t waits(const fe__lockstep_place *p) { return p->is_open && p->part != FE__OVER; }
+
+// Worlds have their own gravity and tuning, and may have had another step before. Where more than half of them agree:
+// one of those (R. Boyer, J. Moore, "MJRTY", 1991)
+static const fe__lockstep_place *choose_leader(const fe__lockstep *l)
+{
+    const fe__lockstep_place *leader = NULL;
+    int32_t votes = 0;
+    for (const fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) {
+        if (!waits(p)) continue;
+        if (votes == 0) leader = p;
+        votes += fe__solves_alike(leader->world, p->world) ? 1 : -1;
+    }
+    return leader;
+}
+
 static void join(fe__lockstep *l, fe__lockstep_place *p)
 {
     fe__merge *m = &l->merge;
-    // worlds have their own gravity and tuning, and may have had another step before
-    if (l->leader && !fe__solves_alike(l->leader->world, p->world)) return;
-    if (!l->leader) l->leader = p;
+    if (!waits(p) || !fe__solves_alike(l->leader->world, p->world)) return;
     p->part = m->count++;
     m->part[p->part] = &p->world->solver;
     m->of[p->part] = fe__begin_solve(&p->open.step);
@@ -107,9 +121,8 @@ static void separate(fe__lockstep *l)
 static void solve_together(fe__lockstep *l)
 {
     fe__merge *m = &l->merge;
-    l->leader = NULL, m->count = 0;
-    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
-        if (p->is_open && p->part != FE__OVER) join(l, p);
+    l->leader = choose_leader(l), m->count = 0;
+    for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) join(l, p);
     if (m->count < 2 || !fe__graph_merge(m, &l->memory, l->leader->world->kernels)) {
         separate(l);
         return;
@@ -123,7 +136,7 @@ void fe__lockstep_finish(fe__lockstep *l)
     if (!l->open) return;
     solve_together(l);
     for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p)
-        if (p->is_open && p->part != FE__OVER) end_step(l, p);
+        if (waits(p)) end_step(l, p);
     double each = (fe__clock() - l->began) / l->open;
     for (fe__lockstep_place *p = l->places; p < l->places + FE__MERGE_MOST; ++p) {
         if (p->is_open) p->world->profile.step = (float)(each * MILLISECONDS);
