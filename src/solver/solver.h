@@ -189,7 +189,7 @@ typedef struct fe__records {
     fe__extra *extras;       // NULL while no row is special
     const uint64_t *serials; // of the pairs, two for each record of points
     fe__body *bodies;
-    const fe__joints *joints;
+    fe__joints joints;        // its arrays and its forest
     int32_t first_place;      // among fe__solver.places: of the forest's first link
     _Atomic int32_t *engaged; // fe__solver.engaged of the world
 } fe__records;

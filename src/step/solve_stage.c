@@ -129,7 +129,7 @@ static fe__records records_of(fe_world *w)
                          .extras = w->extras,
                          .serials = w->point_serials,
                          .bodies = w->bodies,
-                         .joints = &w->joints,
+                         .joints = w->joints,
                          .engaged = &w->solver.engaged};
 }
 

@@ -181,7 +181,7 @@ static inline void rig_step(rig *r)
     r->last_h = h;
     if (!r->built) rig_build(r);
     const fe__step_constants paces[FE__PACES] = {c, c, c};
-    const fe__records of = {.bodies = r->bodies, .joints = &r->joints, .engaged = &r->solver.engaged};
+    const fe__records of = {.bodies = r->bodies, .joints = r->joints, .engaged = &r->solver.engaged};
     fe__solve(&r->solver, r->kernels, &r->workers, &of, paces);
     fe__note_solved(&r->solver, r->kernels, &of);
     for (int32_t i = 1; i < r->body_count; ++i) {

@@ -115,7 +115,7 @@ static void begin(uint32_t seed)
     for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
     the.joints.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
     the.tree.kind = FE__TREE_HEAVY;
-    the.records = (fe__records){.bodies = the.bodies, .joints = &the.joints, .engaged = &the.solver.engaged};
+    the.records = (fe__records){.bodies = the.bodies, .joints = the.joints, .engaged = &the.solver.engaged};
     the.job = (fe__tree_job){.solver = &the.solver,
                              .of = &the.records,
                              .trees = the.trees,

@@ -180,7 +180,8 @@ static int32_t rows_fit(const fe__solver *s)
 
 void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input)
 {
-    const fe__records only = {.joints = input->joints};
+    fe__records only = {.joints = {.joints = NULL}};
+    if (input->joints) only.joints = *input->joints;
     fe__builder b = make_builder(s, kernels, input);
     b.of = &only;
     fe__graph_find_batches(&b);

@@ -78,13 +78,12 @@ static void open_tree(fe__builder *b, int32_t link)
 
 static const fe__joint_tree *tree_of(const fe__builder *b, fe__tree_name name)
 {
-    return b->of[name.home].joints->forest.trees + name.tree;
+    return b->of[name.home].joints.forest.trees + name.tree;
 }
 
 static int32_t are_alike(const fe__builder *b, fe__tree_name one, fe__tree_name other)
 {
-    return fe__trees_are_alike(&b->of[one.home].joints->forest, one.tree, &b->of[other.home].joints->forest,
-                               other.tree);
+    return fe__trees_are_alike(&b->of[one.home].joints.forest, one.tree, &b->of[other.home].joints.forest, other.tree);
 }
 
 // those of one form one after another

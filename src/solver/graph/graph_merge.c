@@ -43,7 +43,7 @@ static int32_t reserve(fe__merge *m, fe__memory *memory, const fe__kernels *kern
         lines += body_lines(part);
         for (int32_t k = 0; k < part->batch_count; ++k)
             joints |= part->batches[k].joint_count, bounces |= part->batches[k].bounces;
-        places += m->of[i].joints->forest.link_count;
+        places += m->of[i].joints.forest.link_count;
     }
     return FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
            FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
@@ -156,7 +156,7 @@ static void add_lane(merger *g, int32_t part, int32_t key, const fe__lane *l)
 {
     fe__merge *m = g->m;
     const int32_t *line = m->line + m->first_line[part];
-    const fe__forest *f = &m->of[part].joints->forest;
+    const fe__forest *f = &m->of[part].joints.forest;
     int32_t at = m->lane_of_key[key]++;
     m->solver.lanes[at] = (fe__lane){l->contact, l->points, line[l->line_a], line[l->line_b], part};
     if (key >= FE__JOINT_GROUP_KEYS || !f->link_count || f->link_of[l->contact] < 0) return;
@@ -185,7 +185,7 @@ static void add_tree(merger *g, int32_t part, int32_t tree)
 {
     fe__merge *m = g->m;
     const fe__solver *p = m->part[part];
-    const fe__joint_tree *t = m->of[part].joints->forest.trees + tree;
+    const fe__joint_tree *t = m->of[part].joints.forest.trees + tree;
     const int32_t *line = m->line + m->first_line[part];
     fe__tree_place *to = m->solver.places + m->of[part].first_place;
     for (int32_t i = t->first; i < t->first + t->count; ++i)

@@ -91,7 +91,7 @@ FE_INLINE row_joints name_joints(const fe__records *of, const fe__lane *lanes)
     for (int i = 0; i < FE_W; ++i) {
         const fe__lane *lane = lanes[i].contact ? lanes + i : lanes;
         r.of[i] = of + lane->home, r.index[i] = lane->contact;
-        r.joint[i] = r.of[i]->joints->joints + lane->contact;
+        r.joint[i] = r.of[i]->joints.joints + lane->contact;
         r.real += lanes[i].contact != 0;
     }
     return r;
@@ -102,7 +102,7 @@ FE_INLINE row_joints joints_of(const fe__records *of, const fe__lane *lanes, lin
     row_joints r = name_joints(of, lanes);
     for (int i = 0; i < FE_W; ++i) {
         const fe__lane *next = lanes + FE_W + i;
-        if (prefetch) __builtin_prefetch(of[next->home].joints->joints + next->contact);
+        if (prefetch) __builtin_prefetch(of[next->home].joints.joints + next->contact);
         line->a[i] = lanes[i].line_a, line->b[i] = lanes[i].line_b;
         const fe__joint *joint = r.joint[i];
         r.body_a[i] = r.of[i]->bodies + joint->body_a, r.body_b[i] = r.of[i]->bodies + joint->body_b;
@@ -112,17 +112,17 @@ FE_INLINE row_joints joints_of(const fe__records *of, const fe__lane *lanes, lin
 
 FE_INLINE void find_frames(row_joints *r)
 {
-    for (int i = 0; i < FE_W; ++i) r->frame[i] = r->of[i]->joints->frames + r->index[i];
+    for (int i = 0; i < FE_W; ++i) r->frame[i] = r->of[i]->joints.frames + r->index[i];
 }
 
 FE_INLINE void find_axes(row_joints *r)
 {
-    for (int i = 0; i < FE_W; ++i) r->axes[i] = r->of[i]->joints->axes + r->of[i]->joints->frames[r->index[i]].axes;
+    for (int i = 0; i < FE_W; ++i) r->axes[i] = r->of[i]->joints.axes + r->of[i]->joints.frames[r->index[i]].axes;
 }
 
 FE_INLINE void find_reactions(row_joints *r)
 {
-    for (int i = 0; i < FE_W; ++i) r->reaction[i] = r->of[i]->joints->reactions + r->index[i];
+    for (int i = 0; i < FE_W; ++i) r->reaction[i] = r->of[i]->joints.reactions + r->index[i];
 }
 
 FE_INLINE size_t axis_offset(int slot)

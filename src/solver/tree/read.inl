@@ -89,7 +89,7 @@ FE_INLINE void load_record(const pass *t, int32_t i, int lane)
 {
     tree_node *n = t->nodes + i;
     const int32_t b = t->links_of[lane][i].holds_b;
-    const fe__joint *j = t->of[lane]->joints->joints + t->links_of[lane][i].joint;
+    const fe__joint *j = t->of[lane]->joints.joints + t->links_of[lane][i].joint;
     const fe__body *below = t->of[lane]->bodies + (b ? j->body_b : j->body_a),
                    *above = t->of[lane]->bodies + (b ? j->body_a : j->body_b);
     const fe_dvec3 from = arm_of(below, b ? j->arm_b : j->arm_a), to = arm_of(above, b ? j->arm_a : j->arm_b);

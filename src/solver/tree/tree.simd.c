@@ -303,7 +303,7 @@ static void meet_locks(const pass *t, int32_t lanes)
 // ---- passes ---------------------------------------------------------------------------------------------------------
 static pass pass_of(const fe__tree_job *job)
 {
-    const fe__forest *f = &job->of[job->trees->home].joints->forest;
+    const fe__forest *f = &job->of[job->trees->home].joints.forest;
     const fe__joint_tree *first = f->trees + job->trees->tree;
     pass t = {.job = job,
               .solver = job->solver,
@@ -319,8 +319,8 @@ static pass pass_of(const fe__tree_job *job)
     for (int lane = 0; lane < LANES; ++lane) {
         const fe__tree_name *tree = job->trees + (lane < job->count ? lane : 0);
         const fe__records *of = t.of[lane] = job->of + tree->home;
-        const int32_t at = of->joints->forest.trees[tree->tree].first;
-        t.places[lane] = job->solver->places + of->first_place + at, t.links_of[lane] = of->joints->forest.links + at;
+        const int32_t at = of->joints.forest.trees[tree->tree].first;
+        t.places[lane] = job->solver->places + of->first_place + at, t.links_of[lane] = of->joints.forest.links + at;
     }
     return t;
 }
@@ -505,8 +505,8 @@ static void store_trees(const fe__tree_job *job)
         const int32_t open = r_bits(r_greater(r_dot(n->gap, n->gap), r_set(job->open)));
         for (int lane = 0; lane < job->count; ++lane) {
             const int32_t joint = t.links_of[lane][i].joint;
-            put_quad(t.of[lane]->joints->reactions[joint].force, get_lane3(&force, lane));
-            put_quad(t.of[lane]->joints->joints[joint].impulse, get_lane3(&last, lane));
+            put_quad(t.of[lane]->joints.reactions[joint].force, get_lane3(&force, lane));
+            put_quad(t.of[lane]->joints.joints[joint].impulse, get_lane3(&last, lane));
             if (open >> lane & 1) mark_stretched_ends(t.solver, n->line.at[lane], n->line_above.at[lane]);
         }
     }
