@@ -418,6 +418,46 @@ static void steps_fail_one_by_one(void **state)
     FE_TRUE(lost > 0);
 }
 
+static const moment *find_moment(const char *name)
+{
+    const moment *m = moments;
+    while (strcmp(m->name, name)) ++m;
+    return m;
+}
+
+// Of a first step each allocation fails in turn, those for what the worlds share among them: then each solves itself
+static void the_shared_graph_may_fail(void **state)
+{
+    (void)state;
+    enum { WORLDS = 4, STRIDE = SLOW_BUILD ? 5 : 1 };
+    static const char *const names[WORLDS] = {"bouncing", "ropes", "cradle", "bullets"};
+    static twins t;
+    int32_t whole_steps = 0;
+    for (int64_t k = 1, failures = 1; failures; k += STRIDE) {
+        counting c = {0};
+        fe_allocator allocator = counting_allocator(&c);
+        plan p = {.worlds = WORLDS, .workers = 1, .block = WORLDS};
+        int32_t results[WORLDS];
+        twins_begin(&t, &p, &allocator);
+        for (int32_t i = 0; i < WORLDS; ++i) {
+            t.name[i] = names[i];
+            become(t.inside[i], find_moment(names[i]), 0), become(t.alone[i], find_moment(names[i]), 0);
+        }
+        c.fail_from = c.calls + k, c.fail_count = 1;
+        int32_t failed = fe_batch_step(t.batch, DT, 1, NULL, results);
+        failures = c.failures;
+        whole_steps += failures && !failed;
+        FE_TRUE(failed <= failures);
+        for (int32_t i = 0; i < WORLDS; ++i) {
+            if (results[i] == FE_OK) MUST(fe_world_step(t.alone[i], DT));
+            if (!same_hash(t.inside[i], t.alone[i])) fail_msg("%s is not what it was", names[i]);
+        }
+        twins_end(&t);
+        FE_TRUE(c.blocks == 0 && c.wrong == 0);
+    }
+    FE_TRUE(whole_steps >= (SLOW_BUILD ? 1 : 20)); // as many arrays as the shared graph has
+}
+
 // ---- histories -----------------------------------------------------------------------------------------------------
 static void histories_take_worlds_back(void **state)
 {
@@ -496,10 +536,10 @@ int main(int argc, char **argv)
 {
     if (argc > 1) whole = atoi(argv[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_two_step_side_by_side), cmocka_unit_test(what_is_beside_a_world_does_not_show),
-        cmocka_unit_test(batches_by_chance),         cmocka_unit_test(who_stays_awake_is_the_same),
-        cmocka_unit_test(steps_fail_one_by_one),     cmocka_unit_test(histories_take_worlds_back),
-        cmocka_unit_test(no_time_counts_twice),
+        cmocka_unit_test(any_two_step_side_by_side),  cmocka_unit_test(what_is_beside_a_world_does_not_show),
+        cmocka_unit_test(batches_by_chance),          cmocka_unit_test(who_stays_awake_is_the_same),
+        cmocka_unit_test(steps_fail_one_by_one),      cmocka_unit_test(the_shared_graph_may_fail),
+        cmocka_unit_test(histories_take_worlds_back), cmocka_unit_test(no_time_counts_twice),
     };
     return cmocka_run_group_tests_name("lockstep", tests, begin_all, end_all);
 }
