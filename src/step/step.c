@@ -10,6 +10,7 @@
 #include "step/pairs_stage.h"
 #include "step/solve_stage.h"
 
+#include <assert.h>
 #include <stddef.h>
 
 typedef struct stage {
@@ -92,6 +93,7 @@ fe_result fe__step_begin(fe__open_step *o, fe_world *w, float dt, int32_t is_tim
                          .profile = {.struct_size = sizeof o->profile},
                          .is_timed = is_timed};
     if (is_timed) o->mark = fe__clock();
+    assert(stages[SOLVES].run == fe__solve_islands);
     fe__pool_begin(w->workers.pool);
     run_stages(o, SOLVES);
     if (!o->step.failed) return FE_OK;

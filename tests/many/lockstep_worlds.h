@@ -51,24 +51,6 @@ static void let_all_sleep(scene *s)
     for (int32_t i = 0; i < count; ++i) MUST(fe_body_set_sleep_allowed(s->world, all[i], 1));
 }
 
-typedef enum link_kind { BALLS, HINGES, FIXTURES, RODS, SLIDERS, LINK_KINDS } link_kind;
-
-static fe_joint link_bodies(scene *s, link_kind kind, fe_body a, fe_body b, vec at)
-{
-    switch (kind) {
-    case BALLS:
-        return add_ball(s, ball_def(), a, b, at, v3(0, -1, 0));
-    case HINGES:
-        return add_hinge(s, hinge_def(), a, b, at, v3(0, 0, 1));
-    case FIXTURES:
-        return add_fixed(s, fixed_def(), a, b, at);
-    case RODS:
-        return add_rod(s, a, b, plus(at, v3(0, 0.05, 0)), plus(at, v3(0, -0.05, 0)));
-    default:
-        return add_configurable(s, slider_def(), a, b, at, v3(0, 0, 1));
-    }
-}
-
 // Links of 1 kg downwards, a load at the end, which swings. Returns the last
 static fe_body hang_chain(scene *s, link_kind kind, vec top, double load, int links, fe_body out_first[2])
 {
@@ -153,7 +135,7 @@ static void make_ropes(scene *s)
 {
     fe_body first[2];
     static const double loads[] = {1000, 1, 30, 1000};
-    for (int i = 0; i < 4; ++i) (void)hang_chain(s, BALLS, v3(2 * i, 0, 0), loads[i], i == 2 ? 3 : CHAIN, first);
+    for (int i = 0; i < 4; ++i) (void)hang_chain(s, LINK_BALLS, v3(2 * i, 0, 0), loads[i], i == 2 ? 3 : CHAIN, first);
 }
 
 // Some of them torn, by who moved a link
@@ -161,7 +143,7 @@ static void make_torn_ropes(scene *s)
 {
     fe_body first[2];
     for (int i = 0; i < 3; ++i) {
-        (void)hang_chain(s, BALLS, v3(2 * i, 0, 0), 1 + 100 * i, CHAIN, first);
+        (void)hang_chain(s, LINK_BALLS, v3(2 * i, 0, 0), 1 + 100 * i, CHAIN, first);
         fe_transform at = body_transform(s->world, first[1]);
         at.position.z += 3 + i;
         MUST(fe_body_set_transform(s->world, first[1], &at));
@@ -172,7 +154,7 @@ static void make_heavy_chains(scene *s)
 {
     fe_body first[2];
     for (int i = 0; i < LINK_KINDS; ++i) (void)hang_chain(s, (link_kind)i, v3(2 * i, 0, 0), 1000, CHAIN, first);
-    fe_body last = hang_chain(s, HINGES, v3(12, 0, 0), 500, CHAIN, first); // turns in its plane
+    fe_body last = hang_chain(s, LINK_HINGES, v3(12, 0, 0), 500, CHAIN, first); // turns in its plane
     MUST(fe_body_set_locks(s->world, last, FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
 }
 
@@ -190,7 +172,7 @@ static void make_light_trees(scene *s)
 {
     fe_body first[2];
     for (int i = 0; i < 5; ++i) {
-        fe_body last = hang_chain(s, i % 2 ? HINGES : BALLS, v3(0, 0, 2 * i), 1, 5, first);
+        fe_body last = hang_chain(s, i % 2 ? LINK_HINGES : LINK_BALLS, v3(0, 0, 2 * i), 1, 5, first);
         add_slack_rope(s, first[0], first[1]);
         MUST(fe_body_set_filter(s->world, last, 1, 0xFFFFFFFFu, 0));
         fe_body ball = put_ball(s, v3(-3 - i, -0.9, 2 * i), 0.2, 0.2);
@@ -240,9 +222,9 @@ static void make_fast_joints(scene *s)
     fe_body ball = put_ball(s, v3(0, -4, 0), 0.1, 0);
     (void)add_rod(s, add_anchor(s, v3(0, 0, 0)), ball, v3(0, 0, 0), v3(0, -4, 0));
     set_velocity(s, ball, v3(120, 0, 0), v3(0, 0, 0));
-    fe_body first[2], last = hang_chain(s, BALLS, v3(0, 0, 8), 1, CHAIN, first);
+    fe_body first[2], last = hang_chain(s, LINK_BALLS, v3(0, 0, 8), 1, CHAIN, first);
     set_velocity(s, last, v3(150, 0, 0), v3(0, 0, 0));
-    last = hang_chain(s, HINGES, v3(2, 0, 8), 20, CHAIN, first);
+    last = hang_chain(s, LINK_HINGES, v3(2, 0, 8), 20, CHAIN, first);
     set_velocity(s, last, v3(90, 0, 0), v3(0, 0, 0));
 }
 

@@ -108,17 +108,6 @@ static fe_world *world_of(const fe_batch *batch, int32_t i)
     return world;
 }
 
-static int32_t has_simd(int32_t simd)
-{
-    fe_world_def def;
-    fe_world *world;
-    fe_world_def_init(&def, sizeof def);
-    def.simd = simd;
-    if (fe_world_create(&def, &world) != FE_OK) return 0;
-    destroy(world);
-    return 1;
-}
-
 // ---- clones and states --------------------------------------------------------------------------------------------
 static int32_t take_refusal(play *p, fe_result result)
 {

@@ -37,17 +37,6 @@ static uint32_t draw(twins *t, uint32_t end)
     return (uint32_t)((uint64_t)t->seed * end >> 32);
 }
 
-static int32_t has_simd(int32_t simd)
-{
-    fe_world_def def;
-    fe_world *world;
-    fe_world_def_init(&def, sizeof def);
-    def.simd = simd;
-    if (fe_world_create(&def, &world) != FE_OK) return 0;
-    MUST(fe_world_destroy(world));
-    return 1;
-}
-
 // ---- what a world tells --------------------------------------------------------------------------------------------
 static int32_t same_hash(const fe_world *a, const fe_world *b)
 {

@@ -156,4 +156,23 @@ static inline double moment_of(const scene *s, fe_body body, int axis, double ar
     return (double)moments[axis] + (double)m.mass * arm * arm;
 }
 
+// A joint of each kind that trees may have, between two bodies
+typedef enum link_kind { LINK_BALLS, LINK_HINGES, LINK_FIXTURES, LINK_RODS, LINK_SLIDERS, LINK_KINDS } link_kind;
+
+static inline fe_joint link_bodies(scene *s, link_kind kind, fe_body a, fe_body b, vec at)
+{
+    switch (kind) {
+    case LINK_BALLS:
+        return add_ball(s, ball_def(), a, b, at, v3(0, -1, 0));
+    case LINK_HINGES:
+        return add_hinge(s, hinge_def(), a, b, at, v3(0, 0, 1));
+    case LINK_FIXTURES:
+        return add_fixed(s, fixed_def(), a, b, at);
+    case LINK_RODS:
+        return add_rod(s, a, b, plus(at, v3(0, 0.05, 0)), plus(at, v3(0, -0.05, 0)));
+    default:
+        return add_configurable(s, slider_def(), a, b, at, v3(0, 0, 1));
+    }
+}
+
 #endif

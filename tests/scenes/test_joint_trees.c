@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { LINKS = 12, MOST_BODIES = 40, KINDS = 5 };
+enum { LINKS = 12, MOST_BODIES = 40 };
 #define STEP_LENGTH 0.2 // m, from joint to joint
 #define EXACT (LINEAR_SLOP / 10)
 
@@ -17,24 +17,6 @@ static int trees_of(const scene *s)
 
 static void set_mass(scene *s, fe_body body, double mass) { MUST(fe_body_set_mass(s->world, body, (float)mass)); }
 
-typedef enum kind { BALLS, HINGES, FIXTURES, RODS, SLIDERS } kind;
-
-static fe_joint join(scene *s, kind k, fe_body a, fe_body b, vec at)
-{
-    switch (k) {
-    case BALLS:
-        return add_ball(s, ball_def(), a, b, at, v3(0, -1, 0));
-    case HINGES:
-        return add_hinge(s, hinge_def(), a, b, at, v3(0, 0, 1));
-    case FIXTURES:
-        return add_fixed(s, fixed_def(), a, b, at);
-    case RODS:
-        return add_rod(s, a, b, plus(at, v3(0, 0.05, 0)), plus(at, v3(0, -0.05, 0)));
-    default:
-        return add_configurable(s, slider_def(), a, b, at, v3(0, 0, 1));
-    }
-}
-
 typedef struct chain {
     fe_body bodies[MOST_BODIES];
     fe_joint joints[MOST_BODIES];
@@ -42,7 +24,7 @@ typedef struct chain {
 } chain;
 
 // a row of links of 1 kg downwards from the origin, a load at its end
-static chain hang(scene *s, kind k, fe_body above, double load)
+static chain hang(scene *s, link_kind k, fe_body above, double load)
 {
     chain c = {.count = LINKS};
     for (int i = 0; i < LINKS; ++i) {
@@ -50,7 +32,7 @@ static chain hang(scene *s, kind k, fe_body above, double load)
         c.bodies[i] = add_plain(s, box(0.04, 0.08, 0.04), plus(top, v3(0, -STEP_LENGTH / 2, 0)));
         touch_nothing(s, c.bodies[i]);
         set_mass(s, c.bodies[i], i < LINKS - 1 ? 1 : load);
-        c.joints[i] = join(s, k, i ? c.bodies[i - 1] : above, c.bodies[i], top);
+        c.joints[i] = link_bodies(s, k, i ? c.bodies[i - 1] : above, c.bodies[i], top);
     }
     return c;
 }
@@ -61,11 +43,11 @@ static double widest_gap(const scene *s, const chain *c) { return worst_gap(s, c
 
 // A thousand links swung sideways with 3 m/s, a hundred on rods: what calms light links sees turns, not the way across
 // a rod. Rods and hinges swing, sliders slide, fixed ones stay
-static void a_load_swings(void **state, kind k, double load)
+static void a_load_swings(void **state, link_kind k, double load)
 {
     scene s = scene_begin(state);
     chain c = hang(&s, k, add_anchor(&s, v3(0, 0, 0)), load);
-    set_velocity(&s, c.bodies[LINKS - 1], v3(k == FIXTURES || k == SLIDERS ? 0 : 3, 0, 0), v3(0, 0, 0));
+    set_velocity(&s, c.bodies[LINKS - 1], v3(k == LINK_FIXTURES || k == LINK_SLIDERS ? 0 : 3, 0, 0), v3(0, 0, 0));
     const double start = totals_of(&s, c.bodies, c.count).energy, turned_over = load * G * LINKS * STEP_LENGTH;
     for (int i = 0; i < (SLOW_BUILD ? 60 : 300); ++i) {
         run(&s, 1);
@@ -75,11 +57,11 @@ static void a_load_swings(void **state, kind k, double load)
     }
     scene_end(&s);
 }
-static void on_ball_joints(void **state) { a_load_swings(state, BALLS, 1000); }
-static void on_hinges(void **state) { a_load_swings(state, HINGES, 1000); }
-static void on_fixed_joints(void **state) { a_load_swings(state, FIXTURES, 1000); }
-static void on_rods(void **state) { a_load_swings(state, RODS, 100); }
-static void on_sliders(void **state) { a_load_swings(state, SLIDERS, 1000); }
+static void on_ball_joints(void **state) { a_load_swings(state, LINK_BALLS, 1000); }
+static void on_hinges(void **state) { a_load_swings(state, LINK_HINGES, 1000); }
+static void on_fixed_joints(void **state) { a_load_swings(state, LINK_FIXTURES, 1000); }
+static void on_rods(void **state) { a_load_swings(state, LINK_RODS, 100); }
+static void on_sliders(void **state) { a_load_swings(state, LINK_SLIDERS, 1000); }
 
 // A beam of twelve fixed joints, held at one end, a load of fifty links at the other: P2 of its first joint alone is a
 // sag of 40 degrees
@@ -105,7 +87,7 @@ static void a_beam_does_not_bend(void **state)
 static void reactions_are_the_weight_below(void **state)
 {
     scene s = scene_begin(state);
-    chain c = hang(&s, BALLS, add_anchor(&s, v3(0, 0, 0)), 1000);
+    chain c = hang(&s, LINK_BALLS, add_anchor(&s, v3(0, 0, 0)), 1000);
     run(&s, 30);
     for (int i = 0; i < LINKS; ++i) FE_NEAR(force_of(&s, c.joints[i]).y, (1000 + LINKS - 1 - i) * G, 1e-4 * 1000 * G);
     scene_end(&s);
@@ -116,7 +98,7 @@ static void a_free_tree_keeps_its_momenta(void **state)
 {
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
-    chain c = hang(&s, BALLS, add_anchor(&s, v3(0, 0, 0)), 500);
+    chain c = hang(&s, LINK_BALLS, add_anchor(&s, v3(0, 0, 0)), 500);
     MUST(fe_joint_destroy(s.world, c.joints[0]));
     set_mass(&s, c.bodies[0], 500);
     set_velocity(&s, c.bodies[0], v3(2, 0, 0.5), v3(0, 0, 0)),
@@ -152,8 +134,8 @@ static void random_trees_hold(void **state)
             touch_nothing(&s, c.bodies[i]);
             set_mass(&s, c.bodies[i], pick(&d, 3) ? uniform(&d, 1, 5) : uniform(&d, 100, 1000));
             set_velocity(&s, c.bodies[i], somewhere(&d, 3), v3(0, 0, 0));
-            c.joints[i] = join(&s, (kind)pick(&d, RODS), i ? c.bodies[above] : anchor, c.bodies[i],
-                               times(0.5, plus(from, places[i])));
+            c.joints[i] = link_bodies(&s, (link_kind)pick(&d, LINK_RODS), i ? c.bodies[above] : anchor, c.bodies[i],
+                                      times(0.5, plus(from, places[i])));
         }
         run(&s, 1); // flung apart, then held
         const double start = totals_of(&s, c.bodies, c.count).energy;
@@ -174,7 +156,7 @@ static void a_trolley_carries_its_load(void **state)
 {
     scene s = scene_begin(state);
     fe_body trolley = add_body(&s, FE_BODY_KINEMATIC, box(0.2, 0.1, 0.2), v3(0, 0, 0), UNTURNED, friction(0.6), WATER);
-    chain c = hang(&s, BALLS, trolley, 1000);
+    chain c = hang(&s, LINK_BALLS, trolley, 1000);
     for (int i = 0; i < (SLOW_BUILD ? 60 : 300); ++i) {
         set_velocity(&s, trolley, v3(2 * cos(0.05 * i), 0, 0), v3(0, 0, 0));
         run(&s, 1);
@@ -187,7 +169,7 @@ static void a_trolley_carries_its_load(void **state)
 static void locked_bodies_swing_in_their_plane(void **state)
 {
     scene s = scene_begin(state);
-    chain c = hang(&s, BALLS, add_anchor(&s, v3(0, 0, 0)), 1000);
+    chain c = hang(&s, LINK_BALLS, add_anchor(&s, v3(0, 0, 0)), 1000);
     for (int i = 0; i < LINKS; ++i) MUST(fe_body_set_locks(s.world, c.bodies[i], FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
     set_velocity(&s, c.bodies[LINKS - 1], v3(3, 0, 0), v3(0, 0, 0));
     double farthest = 0;
@@ -203,7 +185,7 @@ static void locked_bodies_swing_in_their_plane(void **state)
 
 // ---- side by side --------------------------------------------------------------------------------------------------
 // the last pose of a chain that is flung, beside so many others of its form that are flung harder
-static void fling(void **state, kind k, double load, int beside, fe_transform out_poses[LINKS])
+static void fling(void **state, link_kind k, double load, int beside, fe_transform out_poses[LINKS])
 {
     scene s = scene_begin(state);
     fe_body anchor = add_anchor(&s, v3(0, 0, 0));
@@ -225,12 +207,12 @@ static void fling(void **state, kind k, double load, int beside, fe_transform ou
 static void neighbours_do_not_show(void **state)
 {
     static const int beside[] = {1, 8};
-    for (int k = 0; k < KINDS; ++k)
+    for (int k = 0; k < LINK_KINDS; ++k)
         for (double load = 1; load < 1e4; load *= 100) {
             fe_transform alone[LINKS], among[LINKS];
-            fling(state, (kind)k, load, 0, alone);
+            fling(state, (link_kind)k, load, 0, alone);
             for (size_t i = 0; i < sizeof beside / sizeof *beside; ++i) {
-                fling(state, (kind)k, load, beside[i], among);
+                fling(state, (link_kind)k, load, beside[i], among);
                 for (int j = 0; j < LINKS; ++j) {
                     FE_TRUE(!memcmp(&alone[j].position, &among[j].position, sizeof alone[j].position));
                     FE_TRUE(!memcmp(&alone[j].rotation, &among[j].rotation, sizeof alone[j].rotation));
@@ -249,7 +231,7 @@ static void a_loop_is_no_tree(void **state)
     for (int with = 0; with < 2; ++with) {
         scene s = scene_begin(state);
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), spare = add_anchor(&s, v3(0, -STEP_LENGTH * LINKS, 0));
-        chain c = hang(&s, BALLS, anchor, 1000);
+        chain c = hang(&s, LINK_BALLS, anchor, 1000);
         fe_joint second =
             add_ball(&s, ball_def(), c.bodies[LINKS - 1], spare, v3(0, -STEP_LENGTH * LINKS, 0), v3(0, 1, 0));
         if (!with) MUST(fe_joint_set_enabled(s.world, second, 0));
@@ -270,7 +252,7 @@ static void a_loop_is_no_tree(void **state)
 static void a_heavy_load_makes_a_tree(void **state)
 {
     scene s = scene_begin(state);
-    chain c = hang(&s, BALLS, add_anchor(&s, v3(0, 0, 0)), 1);
+    chain c = hang(&s, LINK_BALLS, add_anchor(&s, v3(0, 0, 0)), 1);
     add_slack_rope(&s, c.bodies[0], c.bodies[1]);
     run(&s, 1);
     FE_TRUE(trees_of(&s) == 0);

@@ -95,4 +95,14 @@ void play_put(play *p, int32_t actor, const part *part); // makes the actor's bo
 int32_t play_add(play *p, const part *part);             // as a new actor
 void play_remove(play *p, int32_t actor);                // no harm when it is not there
 
+// 1: this build and this CPU have the set
+static inline int32_t has_simd(int32_t simd)
+{
+    fe_world_def def;
+    fe_world *world;
+    fe_world_def_init(&def, sizeof def);
+    def.simd = simd;
+    return fe_world_create(&def, &world) == FE_OK && fe_world_destroy(world) == FE_OK;
+}
+
 #endif
