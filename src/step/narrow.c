@@ -85,8 +85,9 @@ typedef struct prediction {
 } prediction;
 
 // the manifold at out->at
-static void predict_there(const fe_world *world, const fe__contact *m, const fe__view *v, prediction *out)
+static void predict_there(const fe__step *step, const fe__contact *m, const fe__view *v, prediction *out)
 {
+    const fe_world *world = step->world;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__places *at = &out->at;
     int32_t a_is_b = m->body_a != v->a->body;
@@ -97,14 +98,16 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
-    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
+    if (a->type == FE_BODY_STATIC)
+        fe__mend_seam(world, &out->v, world->tuning.speculative_distance, step->fall, &out->found);
 }
 
-static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
+static void predict(const fe__step *step, const fe__contact *m, const fe__view *v, float time, prediction *out)
 {
+    const fe_world *world = step->world;
     fe__advance(world, world->bodies + m->body_a, time, &out->at.centre_a, &out->at.rotation_a);
     fe__advance(world, world->bodies + m->body_b, time, &out->at.centre_b, &out->at.rotation_b);
-    predict_there(world, m, v, out);
+    predict_there(step, m, v, out);
 }
 
 static float deepest_of(const fe__manifold *found)
@@ -117,15 +120,14 @@ static float deepest_of(const fe__manifold *found)
 // The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they
 // touch at the mean speed: the right features and normal for an impact, none for bodies that pass each other by. Deep
 // in, features say nothing any more, and the nearest ones of now must do.
-static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at,
-                          fe__manifold *found)
+static int32_t look_ahead(const fe__step *step, const fe__contact *m, fe__view *v, fe__places *at, fe__manifold *found)
 {
     prediction end, touch;
-    predict(world, m, v, dt, &end);
+    predict(step, m, v, step->dt, &end);
     if (!end.found.count) return 0;
     float now = deepest_of(found), then = deepest_of(&end.found);
     if (now > 0.0f && then < 0.0f) {
-        predict(world, m, v, dt * (now / (now - then)), &touch);
+        predict(step, m, v, step->dt * (now / (now - then)), &touch);
         if (touch.found.count) end = touch;
     }
     if (-deepest_of(&end.found) > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) &&
@@ -136,12 +138,13 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
 }
 
 // What may outrun its thickness has its contact with a static or kinematic body where it touches first.
-static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at,
+static int32_t look_far_ahead(const fe__step *step, const fe__contact *m, fe__view *v, fe__places *at,
                               fe__manifold *found)
 {
+    const fe_world *world = step->world;
     prediction touch;
-    if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), dt, &touch.at)) return 0;
-    predict_there(world, m, v, &touch);
+    if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), step->dt, &touch.at)) return 0;
+    predict_there(step, m, v, &touch);
     if (!touch.found.count) return 0;
     *v = touch.v, *at = touch.at, *found = touch.found;
     return 1;
@@ -425,7 +428,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     if (p->axis >= 0) found.last = kernels_normal(m, &v);
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     int32_t passing = passed && found.count; // a seam may take points away from what passes
-    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), 0.0f, &found);
     int32_t axis = found.axis;
     float axis_separation = found.axis_separation;
     sides sides = p->flags & FE__PAIR_DENIED ? HOLDS : sides_of(world, pair, passing, &v, &found);
@@ -440,7 +443,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     if (may_touch_from_afar(step, p, m, &v, &found)) {
         int32_t fast = may_outrun(a, x, y, reach);
         if (fast && !writes_points) return 0;
-        ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
+        ahead = (fast ? look_far_ahead : look_ahead)(step, m, &v, &at, &found);
     }
     if (ahead && !writes_points) return 0;
     if (!ahead && !near) {

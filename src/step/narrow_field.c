@@ -32,6 +32,7 @@ typedef struct pair_view {
     int32_t known_count;
     const fe__mesh_near *near; // triangles of all looks, or NULL
     float dt, speed_limit;     // s; m/s that no point of either body exceeds
+    float fall;                // m, see fe__terrain
     int32_t is_last;           // the look is at the end of the step
 } pair_view;
 
@@ -46,7 +47,8 @@ static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, co
                          around,
                          p->known,
                          p->known_count,
-                         p->is_last};
+                         p->is_last,
+                         p->fall};
 }
 
 static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
@@ -310,6 +312,7 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     int32_t count = 0, ahead = 0;
     for (int32_t i = 0; i < now.count; ++i)
         if (has_near(now.patches + i, margin)) plans[count++] = (plan){.from = &now, .patch = now.patches + i};
+    view.fall = step->fall; // from here on the poses are ahead of time
     if (now.count && !sensor) {
         if (deepest_of(&now) > FE__TURNS_LITTLE) {
             ahead = look_ahead(&view, &now, &then);

@@ -10,6 +10,7 @@
 #include "collision/form/clip.h"
 #include "collision/form/solid.h"
 #include "collision/form/support.h"
+#include "collision/manifold/bridge.h"
 #include "step/surroundings.h"
 
 #include <float.h>
@@ -19,8 +20,8 @@ enum { SEAM_ID = 0x20000000 };
 typedef struct seam {
     fe__solid solid;
     fe__surroundings around;
-    fe__solid other; // what touches the solid: any form
-    float margin;
+    fe__solid other;    // what touches the solid: any form
+    float margin, fall; // m; see fe__terrain
 } seam;
 
 static int32_t ground_shuts(const seam *s, const fe__neighbour *n, fe_vec3 q, fe_vec3 m, fe_vec3 off)
@@ -31,20 +32,34 @@ static int32_t ground_shuts(const seam *s, const fe__neighbour *n, fe_vec3 q, fe
     return fe__ground_rises_at(&n->ground, &rim, fe__widen(fe__mul_transposed(&n->axes, m)), (double)FE__FLUSH);
 }
 
-static int32_t is_shut(const seam *s, fe_vec3 q, fe_vec3 m)
+// Is the body carried over to another face of the solid from across a gap?
+static int32_t gap_shuts(const seam *s, fe_vec3 q, fe_vec3 m, float separation)
+{
+    const fe__crossing crossing = {s->other, &s->around, NULL, s->fall};
+    const float beside = 0.01f; // cosine
+    for (int32_t face = 0; face < fe__solid_face_count(&s->solid); ++face) {
+        fe_vec3 f = fe__solid_normal(&s->solid, face);
+        if (fe__dot(f, m) < -beside || fe__is_along_face(m, f)) continue;
+        fe_vec3 on_face = fe__add_scaled(q, fe__solid_height(&s->solid, face) - fe__dot(f, q), f);
+        if (fe__is_carried_over(&crossing, on_face, f, &q, separation)) return 1;
+    }
+    return 0;
+}
+
+static int32_t is_shut(const seam *s, fe_vec3 q, fe_vec3 m, float separation)
 {
     fe_vec3 off = fe__solid_off_rim(&s->solid, q, m);
     for (int32_t i = 0; i < s->around.solid_count; ++i)
         if (fe__solid_goes_on(s->around.solids + i, off, m)) return 1;
     for (int32_t i = 0; i < s->around.ground_count; ++i)
         if (ground_shuts(s, s->around.grounds + i, q, m, off)) return 1;
-    return 0;
+    return gap_shuts(s, q, m, separation);
 }
 
-static int32_t all_shut(const seam *s, const fe_vec3 *q, int32_t count, fe_vec3 m)
+static int32_t all_shut(const seam *s, const fe_vec3 *q, const fe__manifold *found, fe_vec3 m)
 {
-    for (int32_t i = 0; i < count; ++i)
-        if (!is_shut(s, q[i], m)) return 0;
+    for (int32_t i = 0; i < found->count; ++i)
+        if (!is_shut(s, q[i], m, found->points[i].separation)) return 0;
     return 1;
 }
 
@@ -108,7 +123,7 @@ static void take_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sig
         const float level = -0.01f; // cosine: not against what was found
         if (fe__dot(f, m) < level) continue;
         float height = height_over(s, f, fe__solid_height(&s->solid, face));
-        if (height <= most || all_shut(s, q, found->count, f)) continue;
+        if (height <= most || all_shut(s, q, found, f)) continue;
         most = height, best = f;
     }
     found->count = 0;
@@ -129,13 +144,13 @@ static fe_vec3 touched(const seam *s, const fe__manifold_point *p, fe_vec3 m)
     return q;
 }
 
-void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found)
+void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, float fall, fe__manifold *found)
 {
     int32_t solid_is_a = fe__is_static_solid(world, v->a);
     const fe__shape *solid = solid_is_a ? v->a : v->b, *other = solid_is_a ? v->b : v->a;
     if (!found->count || !fe__is_static_solid(world, solid) || world->bodies[other->body].static_pairs < 2) return;
     seam s; // the numbers of what is around say how many are written
-    s.margin = margin;
+    s.margin = margin, s.fall = fall;
     fe__find_surroundings(world, v, solid, other, &s.around);
     if (!(s.around.solid_count | s.around.ground_count)) return;
     fe__solid a = {.form = &v->a->form, .axes = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
@@ -144,5 +159,5 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__m
     float sign = solid_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];
     for (int32_t i = 0; i < found->count; ++i) q[i] = touched(&s, found->points + i, m);
-    if (all_shut(&s, q, found->count, m)) take_open_face(&s, q, m, sign, found);
+    if (all_shut(&s, q, found, m)) take_open_face(&s, q, m, sign, found);
 }

@@ -5,6 +5,6 @@
 
 // Where static boxes or hulls lie flush, an inner edge or face gives way to the face that is open. Of a pair with a
 // static body
-void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found);
+void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, float fall, fe__manifold *found);
 
 #endif

@@ -1,6 +1,8 @@
 // ground.c - see ground.h.
 #include "collision/form/ground.h"
 
+#include "collision/form/solid.h"
+
 void fe__ground_corners(const fe__ground *s, int32_t index, fe_dvec3 corner[3])
 {
     if (s->mesh)
@@ -76,15 +78,20 @@ void fe__ground_weights(const fe__ground *s, int32_t index, fe_dvec3 point, floa
 // a slope: 0.06 degrees
 #define FLAT 1e-3
 
-static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
+// Is p over or under the triangle, or less than `near` beside it?
+static int32_t is_over(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p, double near)
 {
-    fe_dvec3 n = normal_of(v);
-    if (fe__absd(fe__ddot(n, fe__dsub(p, v[0]))) > near) return 0;
     for (int32_t k = 0; k < 3; ++k) {
         fe_dvec3 side = fe__dsub(v[(k + 1) % 3], v[k]), out = fe__dcross(side, n);
         if (fe__ddot(out, fe__dsub(p, v[k])) > near * sqrt(fe__ddot(side, side))) return 0;
     }
     return 1;
+}
+
+static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
+{
+    fe_dvec3 n = normal_of(v);
+    return fe__absd(fe__ddot(n, fe__dsub(p, v[0]))) <= near && is_over(v, n, p, near);
 }
 
 static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], const fe__solid_rim *rim)
@@ -141,4 +148,21 @@ int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double nea
 int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dvec3 m, double near)
 {
     return rises(s, rim->p, m, near, rim);
+}
+
+int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f)
+{
+    const double level = (double)FE__LEVEL;
+    fe__bounds box = {{p.x - level, p.y - level, p.z - level}, {p.x + level, p.y + level, p.z + level}};
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, s, &box, p);
+    for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
+        fe_dvec3 v[3];
+        fe__ground_corners(s, i, v);
+        fe_dvec3 n = normal_of(v);
+        double cosine = fe__ddot(n, f), over = fe__ddot(n, fe__dsub(p, v[0]));
+        if (fe__ground_is_two_sided(s)) cosine = fe__absd(cosine);
+        if (cosine > (double)FE__LEVEL_COS && fe__absd(over) <= level && is_over(v, n, p, 0.0)) return 1;
+    }
+    return 0;
 }

@@ -68,6 +68,9 @@ static inline int32_t fe__ground_next_index(fe__ground_walk *walk)
 // Does the surface go on at p and rise along the unit m from there? A triangle nearer to p than `near`, m, counts.
 int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near);
 
+// Has it a triangle with the normal f that is level with p (FE__LEVEL), and that p lies over or under?
+int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f);
+
 // A face of a solid that ends at p and lies along `inward` from there, touched by what is at `from`
 typedef struct fe__solid_rim {
     fe_dvec3 p, inward, from;

@@ -60,6 +60,22 @@ int32_t fe__solid_goes_on(const fe__solid *s, fe_vec3 q, fe_vec3 m)
     return far - here > least + rounding * (fe__absf(far) + fe__absf(here));
 }
 
+int32_t fe__solid_is_level_at(const fe__solid *s, fe_vec3 p, fe_vec3 f)
+{
+    fe_vec3 q = fe__mul_transposed(&s->axes, fe__sub(p, s->centre)), along = fe__mul_transposed(&s->axes, f);
+    int32_t is_level = 0;
+    for (int32_t i = 0; i < fe__solid_face_count(s); ++i) {
+        fe_vec3 n = local_normal(s->form, i);
+        float over = fe__dot(n, q) - local_height(s->form, i);
+        if (over > FE__LEVEL) return 0;
+        if (fe__dot(n, along) > FE__LEVEL_COS)
+            is_level = over >= -FE__LEVEL;
+        else if (over > 0.0f)
+            return 0;
+    }
+    return is_level;
+}
+
 fe_vec3 fe__solid_raise(const fe__solid *s, fe_vec3 q, fe_vec3 m, float most)
 {
     float below = reach(s->form, fe__mul_transposed(&s->axes, m)) - fe__dot(m, fe__sub(q, s->centre));

@@ -18,12 +18,19 @@ static inline int32_t fe__form_is_solid(const fe__form *form)
 // Faces that lie closer than this are flush, m
 #define FE__FLUSH 0.001f
 
+// Faces of one direction, but for 1.8 degrees, are level when they lie closer than this at a place, m: what slides from
+// one to the other does not feel the step
+#define FE__LEVEL 0.001f
+#define FE__LEVEL_COS 0.9995f
+
 int32_t fe__solid_face_count(const fe__solid *solid);
 fe_vec3 fe__solid_normal(const fe__solid *solid, int32_t face); // unit
 float fe__solid_height(const fe__solid *solid, int32_t face);   // of its plane over the common origin, m
 
 // Does it hold q, or lie flush with it, and go on from there along the unit m?
 int32_t fe__solid_goes_on(const fe__solid *solid, fe_vec3 q, fe_vec3 m);
+// Has it a face with the normal f that is level with p, and that p lies over or under?
+int32_t fe__solid_is_level_at(const fe__solid *solid, fe_vec3 p, fe_vec3 f);
 // The point of the solid next to q, of which it may be off by roundings or by a lean of the normal.
 fe_vec3 fe__solid_draw_in(const fe__solid *solid, fe_vec3 q);
 // q raised along the unit m towards what of the solid is farthest along m, by at most `most`, m

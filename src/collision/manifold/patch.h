@@ -9,7 +9,7 @@
 enum {
     FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
                      // no contact is lost
-    FE__NEIGHBOURS = 4,  // other surfaces near the same body
+    FE__NEIGHBOURS = 8,  // other surfaces near the same body
     FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
 };
 
@@ -47,6 +47,7 @@ typedef struct fe__terrain {
     const fe_vec3 *known;
     int32_t known_count;
     int32_t is_last; // the look is one at the end of B's way (ground.near)
+    float fall;      // m, how much lower B may be at the look's pose than what carries it lets it come
 } fe__terrain;
 
 #endif

@@ -149,8 +149,8 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
                                fe__patch patches[FE__PATCHES], float *gap)
 {
     fe__gathering g;
-    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = fe__form_is_ball(b),
-    g.count = 0;
+    g.terrain = t, g.form = b, g.rotation = rotation, g.margin = margin, g.felt = FELT * fe__form_thickness(b),
+    g.single = fe__form_is_ball(b), g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     if (!g.count && gap) *gap = gap_around(t, b, rotation, margin);

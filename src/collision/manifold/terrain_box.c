@@ -102,7 +102,7 @@ static void try_axis(contest *c, const axes *a, int32_t i)
         float separation = back ? a->back[i] : a->forth[i], up = back ? -a->upward[i] : a->upward[i];
         if (up < -level || separation <= c->best.separation + c->tie) continue;
         fe_vec3 m = {a->x[i], a->y[i], a->z[i]}, way = back ? fe__neg(m) : m;
-        if (!fe__tile_allows(c->g->terrain, c->tile, way)) continue;
+        if (!fe__tile_feels_along(c->g, c->tile, way, NULL, separation)) continue;
         int32_t kind = i < BOX_AXES ? ON_BOX_FACE : ON_EDGES, side = i < BOX_AXES ? 0 : i / BOX_AXES - 1;
         c->best = (axis){kind, i % BOX_AXES, side, way, separation};
     }

@@ -218,7 +218,8 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
         fe__core_touch found;
         if (!find_nearest(&c, &low, &found)) return;
         if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
-            fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal)) {
+            fe__dot(found.normal, n) >= 0.0f &&
+            fe__tile_feels_along(g, tile, found.normal, &found.on_a, found.separation)) {
             touch_side(&c, &found);
             return;
         }

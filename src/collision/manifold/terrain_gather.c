@@ -2,9 +2,33 @@
 #include "collision/manifold/terrain_gather.h"
 
 #include "collision/form/clip.h"
+#include "collision/manifold/bridge.h"
 
 #include <float.h>
 
+// ---- gaps ----------------------------------------------------------------------------------------------------------
+static int32_t ends_at_a_side(const fe__ground *s, int32_t index)
+{
+    return fe__ground_is_rim(s, index, 0) || fe__ground_is_rim(s, index, 1) || fe__ground_is_rim(s, index, 2);
+}
+
+static int32_t is_carried_over(const fe__gathering *g, const fe__tile *tile, fe_vec3 m, const fe_vec3 *rim,
+                               float separation)
+{
+    const fe__terrain *t = g->terrain;
+    if (fe__is_along_face(m, tile->normal) || !ends_at_a_side(&t->ground, tile->index)) return 0;
+    const fe__neighbour own = {t->ground, t->origin, {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
+    const fe__crossing crossing = {{g->form, {0.0f, 0.0f, 0.0f}, *g->rotation}, t->around, &own, t->fall};
+    return fe__is_carried_over(&crossing, tile->form.vertex[0], tile->normal, rim, separation);
+}
+
+int32_t fe__tile_feels_along(const fe__gathering *g, const fe__tile *tile, fe_vec3 m, const fe_vec3 *rim,
+                             float separation)
+{
+    return fe__tile_allows(g->terrain, tile, m) && !is_carried_over(g, tile, m, rim, separation);
+}
+
+// ---- patches -------------------------------------------------------------------------------------------------------
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
 static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
 {

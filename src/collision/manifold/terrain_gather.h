@@ -14,6 +14,8 @@ typedef struct fe__raw_patch {
 
 typedef struct fe__gathering {
     const fe__terrain *terrain;
+    const fe__form *form; // of the body
+    const fe__mat3 *rotation;
     float margin;
     float felt;       // m, see fe__tile_feels
     float tie;        // m, points as deep as each other
@@ -30,6 +32,10 @@ static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *til
     return separation >= -g->felt || fe__dot(tile->normal, tile->form.vertex[0]) <= 0.0f;
 }
 
+// May the body touch the tile along m, with that separation? As fe__tile_allows, and not where it is carried over to
+// the tile from across a gap. `rim`: where they touch, or NULL: not known
+int32_t fe__tile_feels_along(const fe__gathering *g, const fe__tile *tile, fe_vec3 m, const fe_vec3 *rim,
+                             float separation);
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
 // Of a line that touches from one of two points to the other, these carry all: what lies between, where seams cut it,
 // comes and goes as the line rolls. Points deeper than the two by more than `tie` stay.

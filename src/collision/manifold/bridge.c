@@ -1,0 +1,70 @@
+// bridge.c - see bridge.h.
+#include "collision/manifold/bridge.h"
+
+#include "collision/form/support.h"
+
+#include <float.h>
+
+// What lies deeper below the face is not carried by anything level with it, m, and as a share of the body's thickness:
+// a step, and what the body has sunk into what carries it
+#define BELOW 0.02f
+#define BELOW_SHARE 0.1f
+// What touches the rim is held beyond the gap where another rim is nearer than this share of the distance to it: loads
+// that differ shift what rests on both
+#define NEARER 0.5f
+
+// p: of the face's plane
+static int32_t goes_on_at(const fe__crossing *c, fe_vec3 p, fe_vec3 f)
+{
+    for (int32_t i = 0; i < c->around->solid_count; ++i)
+        if (fe__solid_is_level_at(c->around->solids + i, p, f)) return 1;
+    for (int32_t i = c->own ? -1 : 0; i < c->around->ground_count; ++i) {
+        const fe__neighbour *n = i < 0 ? c->own : c->around->grounds + i;
+        if (fe__ground_is_level_at(&n->ground, fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))),
+                                   fe__widen(fe__mul_transposed(&n->axes, f))))
+            return 1;
+    }
+    return 0;
+}
+
+// The feature that looks against f, with its heights over the plane through q, and the lowest of them
+static float find_feature(const fe__crossing *c, fe_vec3 q, fe_vec3 f, fe__face *face, float *height)
+{
+    const fe__solid *b = &c->body;
+    float low = FLT_MAX;
+    fe__form_face(b->form, fe__mul_transposed(&b->axes, fe__neg(f)), face);
+    for (int32_t i = 0; i < face->count; ++i) {
+        face->vertex[i] = fe__add(b->centre, fe__mul(&b->axes, face->vertex[i]));
+        height[i] = fe__dot(f, fe__sub(face->vertex[i], q)) - b->form->radius;
+        low = fe__minf(low, height[i]);
+    }
+    return low;
+}
+
+// What lies over the gap at p of the face's plane: is it nearer to another rim? Asked as far from p as this one is, on
+// the other side and at 45 degrees to it: where corners meet, a gap may run on straight there
+static int32_t is_held_beyond(const fe__crossing *c, fe_vec3 p, fe_vec3 f, fe_vec3 rim, float separation)
+{
+    fe_vec3 away = fe__sub(p, rim);
+    away = fe__scale(separation > 0.0f ? 1.0f : NEARER, fe__add_scaled(away, -fe__dot(f, away), f));
+    fe_vec3 beyond = fe__add(p, away), aside = fe__cross(f, away);
+    return goes_on_at(c, beyond, f) || goes_on_at(c, fe__add(beyond, aside), f) ||
+           goes_on_at(c, fe__sub(beyond, aside), f);
+}
+
+int32_t fe__is_carried_over(const fe__crossing *c, fe_vec3 q, fe_vec3 f, const fe_vec3 *rim, float separation)
+{
+    fe__face face;
+    float height[FE_FACE_VERTICES], below = c->fall + fe__minf(BELOW, BELOW_SHARE * fe__form_thickness(c->body.form)),
+                                    low = find_feature(c, q, f, &face, height);
+    if (low < -below) return 0;
+    fe_vec3 sum = {0.0f, 0.0f, 0.0f};
+    int32_t count = 0;
+    for (int32_t i = 0; i < face.count; ++i) {
+        if (height[i] > fe__maxf(low, 0.0f) + below) continue;
+        fe_vec3 p = fe__add_scaled(face.vertex[i], -height[i] - c->body.form->radius, f);
+        if (goes_on_at(c, p, f) || (rim && is_held_beyond(c, p, f, *rim, separation))) return 1;
+        sum = fe__add(sum, p), ++count;
+    }
+    return count > 1 && goes_on_at(c, fe__scale(1.0f / (float)count, sum), f);
+}

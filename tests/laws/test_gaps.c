@@ -1,0 +1,204 @@
+// What slides over level tiles with narrow gaps between them, or with steps of up to a millimetre, goes on.
+#include "laws/law.h"
+
+typedef enum tile_kind { BOXES, HULLS, PARTS, CELLS, MESHES, FIELDS, TILE_KINDS } tile_kind;
+static const char *const tile_names[TILE_KINDS] = {"boxes",           "hulls",  "parts of a compound",
+                                                   "cells of a mesh", "meshes", "heightfields"};
+
+enum { TILES = 8 };
+typedef struct floor_of_tiles {
+    tile_kind kind;
+    double gap, step;            // m
+    double height[TILES][TILES]; // of their tops, m
+} floor_of_tiles;
+
+static double tile_start(const floor_of_tiles *f, int i) { return (i - TILES / 2) * (1 + f->gap) + f->gap / 2; }
+
+static void add_quad(soup *m, const floor_of_tiles *f, int i, int k)
+{
+    uint32_t at = (uint32_t)m->vertex_count;
+    for (int corner = 0; corner < 4; ++corner) {
+        float *v = m->vertices + 3 * m->vertex_count++;
+        v[0] = (float)(tile_start(f, i) + (corner & 1)), v[2] = (float)(tile_start(f, k) + corner / 2);
+        v[1] = (float)f->height[i][k];
+    }
+    const uint32_t side[6] = {at, at + 2, at + 3, at, at + 3, at + 1};
+    memcpy(m->indices + 3 * m->triangle_count, side, sizeof side);
+    m->triangle_count += 2;
+}
+
+static void lay_meshes(scene *s, const floor_of_tiles *f, fe_material m)
+{
+    float vertices[TILES * TILES * 12];
+    uint32_t indices[TILES * TILES * 6];
+    soup all = {vertices, indices, 0, 0};
+    for (int i = 0; i < TILES * TILES; ++i) {
+        add_quad(&all, f, i / TILES, i % TILES);
+        if (f->kind == CELLS && i < TILES * TILES - 1) continue;
+        place_mesh(s, FE_BODY_STATIC, make_mesh(s, &all, 0), v3(0, 0, 0), UNTURNED, m);
+        all.vertex_count = all.triangle_count = 0;
+    }
+}
+
+static void lay_compound(scene *s, const floor_of_tiles *f, fe_material m)
+{
+    fe_compound_part parts[TILES * TILES];
+    fe_asset asset;
+    fe_geometry form;
+    for (int i = 0; i < TILES * TILES; ++i) {
+        int x = i / TILES, z = i % TILES;
+        fe_compound_part_init(&parts[i], sizeof parts[i]);
+        parts[i].geometry = box(0.5, 0.5, 0.5);
+        parts[i].frame.position = narrow(v3(tile_start(f, x) + 0.5, f->height[x][z] - 0.5, tile_start(f, z) + 0.5));
+    }
+    MUST(fe_compound_create(world_store(s->world), parts, sizeof *parts, TILES * TILES, &asset));
+    fe_geometry_compound(&form, asset);
+    add_static(s, form, v3(0, 0, 0), UNTURNED, m);
+}
+
+static void lay(scene *s, const floor_of_tiles *f, fe_material m)
+{
+    if (f->kind == CELLS || f->kind == MESHES) {
+        lay_meshes(s, f, m);
+        return;
+    }
+    if (f->kind == PARTS) {
+        lay_compound(s, f, m);
+        return;
+    }
+    fe_geometry form = f->kind == BOXES   ? box(0.5, 0.5, 0.5)
+                       : f->kind == HULLS ? hull_box(s, 0.5, 0.5, 0.5)
+                                          : sphere(1);
+    fe_asset field = f->kind == FIELDS ? make_field(s, 2, 0.5, 0, 0, level) : 0;
+    for (int i = 0; i < TILES * TILES; ++i) {
+        double x = tile_start(f, i / TILES), z = tile_start(f, i % TILES), y = f->height[i / TILES][i % TILES];
+        if (f->kind == FIELDS)
+            place_field(s, field, v3(x, y, z), UNTURNED, m);
+        else
+            add_static(s, form, v3(x + 0.5, y - 0.5, z + 0.5), UNTURNED, m);
+    }
+}
+
+static floor_of_tiles any_floor(dice *d)
+{
+    floor_of_tiles f = {.kind = (tile_kind)pick(d, TILE_KINDS)};
+    f.gap = chance(d, 0.1) ? 0 : spread(d, 1e-4, 0.02);
+    f.step = chance(d, 0.4) ? 0 : uniform(d, 0, 0.001);
+    for (int i = 0; i < TILES * TILES; ++i) f.height[i / TILES][i % TILES] = chance(d, 0.5) ? f.step : 0;
+    return f;
+}
+
+typedef struct ride {
+    double kept;         // share of the speed
+    double higher, most; // m, over the start, at most; what it crossed of tiles
+} ride;
+
+static ride slide(scene *s, rate r, fe_body body, double heading, double speed)
+{
+    set_velocity(s, body, v3(speed * cos(heading), 0, speed * sin(heading)), v3(0, 0, 0));
+    double height = position(s, body).y, time = fmin(2, 2.5 / speed);
+    ride result = {.most = speed * time};
+    for (int i = 0, steps = (int)(time * r.hertz + 0.5); i < steps; ++i) {
+        law_run(s, r, 1.0 / r.hertz);
+        result.higher = fmax(result.higher, position(s, body).y - height);
+    }
+    vec v = velocity(s, body);
+    result.kept = (v.x * cos(heading) + v.z * sin(heading)) / speed;
+    return result;
+}
+
+// What has a flat base, or a line that lies across the gaps, spans them: without friction it keeps 99 % of its speed,
+// and comes no higher than the steps and the solver's slop.
+static double what_spans_a_gap_slides_on(dice *d, char *told)
+{
+    static const char *const names[] = {"box", "hull", "cylinder", "capsule"};
+    rate r = any_rate(d);
+    scene s = law_scene(r);
+    floor_of_tiles f = any_floor(d);
+    lay(&s, &f, friction(0));
+    int kind = pick(d, 4);
+    double a = spread(d, 0.1, 0.4), b = a * uniform(d, 0.3, 1), c = a * uniform(d, 0.4, 1),
+           heading = uniform(d, -PI, PI), speed = spread(d, 0.5, 10), height = kind == 3 ? 0.5 * a : b,
+           turn = kind == 3 ? PI / 4 + PI / 2 * pick(d, 4) + uniform(d, -0.4, 0.4) : uniform(d, -PI, PI);
+    fe_geometry form = kind == 0   ? box(a, b, c)
+                       : kind == 1 ? hull_box(&s, a, b, c)
+                       : kind == 2 ? cylinder(b, a)
+                                   : capsule(a, height);
+    fe_quat rotation = turned(v3(0, 1, 0), turn);
+    if (kind == 3) rotation = compose(rotation, turned(v3(1, 0, 0), PI / 2));
+    vec at = v3(uniform(d, -1, 1), height + f.step, uniform(d, -1, 1));
+    fe_body body = add_dynamic(&s, form, at, rotation, friction(0), WATER);
+    law_run(&s, r, 0.2);
+    ride way = slide(&s, r, body, heading, speed);
+    snprintf(told, LAW_TOLD,
+             "%d Hz, %d substeps, %s %.3g %.3g %.3g over %s, gap %.3g mm, step %.3g mm, %.3g m/s, heading %.3g, turned "
+             "%.3g: keeps %.4f, %.3g mm up",
+             r.hertz, r.substeps, names[kind], a, b, c, tile_names[f.kind], 1e3 * f.gap, 1e3 * f.step, speed, heading,
+             turn, way.kept, 1e3 * way.higher);
+    scene_end(&s);
+    return fmax(fabs(way.kept - 1) / 0.01, way.higher / (f.step + LINEAR_SLOP));
+}
+
+// A ball of radius r dips into a gap g by r - sqrt(r^2 - g^2/4) and meets its other side at an angle of asin(g/2r): it
+// is thrown up at v g/2r, where it meets it dead. Corners of four tiles are sqrt(2) g wide. Allowed is twice that
+// height, and the solver's slop.
+static double a_ball_feels_the_dip_alone(dice *d, char *told)
+{
+    rate r = any_rate(d);
+    scene s = law_scene(r);
+    floor_of_tiles f = any_floor(d);
+    for (int i = 0; i < TILES * TILES; ++i) f.height[i / TILES][i % TILES] = 0;
+    lay(&s, &f, friction(0));
+    double radius = spread(d, 0.05, 0.4), heading = uniform(d, -PI, PI), speed = spread(d, 0.5, 10);
+    fe_body body = add_dynamic(&s, sphere(radius), v3(uniform(d, -0.4, 0.4) + 0.5, radius, uniform(d, -0.4, 0.4) + 0.5),
+                               UNTURNED, friction(0), WATER);
+    ride way = slide(&s, r, body, heading, speed);
+    double angle = asin(sqrt(2) * f.gap / 2 / radius), up = speed * sin(angle);
+    double most = LINEAR_SLOP + up * up / G, crossed = 2 * way.most + 2;
+    // it loses its speed across the normal at each side, and may be caught when it cannot climb out
+    double dip = radius * (1 - cos(angle)), least = pow(cos(2 * angle), crossed);
+    if (speed * speed * least * least < 4 * G * dip) least = -1;
+    snprintf(
+        told, LAW_TOLD,
+        "%d Hz, %d substeps, ball of %.3g m over %s, gap %.3g mm, %.3g m/s, heading %.3g: keeps %.4f, not %.4f, %.3g "
+        "mm up, not %.3g",
+        r.hertz, r.substeps, radius, tile_names[f.kind], 1e3 * f.gap, speed, heading, way.kept, least, 1e3 * way.higher,
+        1e3 * most);
+    scene_end(&s);
+    return fmax((1 - way.kept) / (1 - least + 0.01), way.higher / most);
+}
+
+// What rises above the middle of a body, behind a gap of any width, stops it: it comes no nearer than the solver's
+// slop.
+static double a_wall_behind_a_gap_stops(dice *d, char *told)
+{
+    rate r = any_rate(d);
+    scene s = law_scene(r);
+    int is_hull = chance(d, 0.5), kind = pick(d, 4);
+    double a = spread(d, 0.1, 0.4), b = a * uniform(d, 0.3, 1), height = kind == 3 ? a : b,
+           gap = chance(d, 0.2) ? 0 : spread(d, 1e-4, 0.02), wall = height * uniform(d, 1.05, 3),
+           speed = spread(d, 0.5, 10);
+    add_static(&s, is_hull ? hull_box(&s, 2, 1, 2) : box(2, 1, 2), v3(-2, -1, 0), UNTURNED, friction(0));
+    add_static(&s, is_hull ? hull_box(&s, 1, 1, 2) : box(1, 1, 2), v3(1 + gap, wall - 1, 0), UNTURNED, friction(0));
+    fe_geometry form = kind == 0   ? box(a, b, a)
+                       : kind == 1 ? hull_box(&s, a, b, a)
+                       : kind == 2 ? cylinder(b, a)
+                                   : sphere(a);
+    vec at = v3(-uniform(d, 1.5, 2) * a, height, 0);
+    fe_body body = add_dynamic(&s, form, at, turned(v3(0, 1, 0), uniform(d, -PI, PI)), friction(0), WATER);
+    slide(&s, r, body, 0, speed);
+    double nearest = position(&s, body).x + a - gap; // of any heading the body reaches as far as `a`
+    snprintf(told, LAW_TOLD,
+             "%d Hz, %d substeps, form %d of %.3g %.3g m, gap %.3g mm, wall %.3g m, %.3g m/s: %.3g m into it", r.hertz,
+             r.substeps, kind, a, b, 1e3 * gap, wall, speed, nearest);
+    scene_end(&s);
+    return nearest / LINEAR_SLOP;
+}
+
+int main(int argc, char **argv)
+{
+    static const law laws[] = {{LAW(what_spans_a_gap_slides_on), 300},
+                               {LAW(a_ball_feels_the_dip_alone), 300},
+                               {LAW(a_wall_behind_a_gap_stops), 300}};
+    return law_main(argc, argv, laws, sizeof laws / sizeof *laws);
+}
