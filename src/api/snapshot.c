@@ -204,7 +204,7 @@ static fe_result exchange(const char *function, fe_world *world, fe__build *buil
     fe_result result = FE_OK;
     if (!fe__snapshot_prepare(build, world, beside, number)) result = report_refusal(function, build);
     if (result == FE_OK) result = check_values(function, beside);
-    if (result == FE_OK) fe__snapshot_adopt(world, beside);
+    if (result == FE_OK) fe__snapshot_adopt(world, beside, build->editions);
     fe__snapshot_drop(world, beside);
     fe__release(&world->memory, beside, sizeof *beside);
     return result;
@@ -308,10 +308,12 @@ fe_result fe_world_load(const fe_world_def *def, const fe_restore_options *optio
     FE_CHECK_POINTER(out_world);
     FE_TRY(fe__create_world(function, def, &world));
     fe_result result = restore(function, world, options, bytes, size);
-    if (result < 0)
+    if (result < 0) {
         fe__world_destroy(world);
-    else
-        *out_world = world;
+        return result;
+    }
+    *out_world = world;
+    fe__owner_leave(&world->owner);
     return result;
 }
 

@@ -50,5 +50,9 @@ fe_result fe_world_clone(const fe_world *source, const fe_world_def *def, fe_wor
     FE_TRY(fe__read_world_def(function, def, &whole));
     if (whole.def.store && whole.def.store != source->store)
         return fe__fail(function, FE_ERROR_ARGUMENT, "store is another one than the source's, which a clone shares");
-    return fe__report_creation(function, &whole.def, fe__world_clone(source, &whole.def, out_world));
+    fe_world *world;
+    FE_TRY(fe__report_creation(function, &whole.def, fe__world_clone(source, &whole.def, &world)));
+    *out_world = world;
+    fe__owner_leave(&world->owner);
+    return FE_OK;
 }

@@ -84,7 +84,11 @@ fe_result fe__create_world(const char *function, const fe_world_def *def, fe_wor
 
 fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
 {
-    return fe__create_world(__func__, def, out_world);
+    fe_world *world;
+    FE_TRY(fe__create_world(__func__, def, out_world ? &world : NULL));
+    *out_world = world;
+    fe__owner_leave(&world->owner);
+    return FE_OK;
 }
 
 fe_result fe_world_destroy(fe_world *world)

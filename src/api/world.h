@@ -12,6 +12,7 @@ typedef struct fe__whole_def {
 fe_result fe__read_world_def(const char *function, const fe_world_def *def, fe__whole_def *whole); // NULL: the defaults
 fe_result fe__report_creation(const char *function, const fe_world_def *def, fe_result result);
 fe_result fe__read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy);
+// The caller is inside it, as of fe__world_create
 fe_result fe__create_world(const char *function, const fe_world_def *def, fe_world **out_world);
 // A state that did not return (history.c)
 fe_result fe__report_return(const char *function, fe_result result);

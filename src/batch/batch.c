@@ -87,6 +87,7 @@ fe_result fe__batch_create(const fe_world *source, const fe__batch_plan *plan, f
     }
     b->block = plan->block ? plan->block : choose_block(plan->count, b->workers.count);
     fe__registry_add(&batches, &b->entry);
+    fe__batch_leave(b, NULL);
     *out_batch = b;
     return FE_OK;
 }

@@ -3,10 +3,6 @@
 // tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
 
-// Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one
-// of few nodes.
-enum { SPLIT_ROOM = 32, ROOM_OF_A_NODE = 2 };
-
 #define DECLARE(simd, name) extern const fe__tree_kernels fe__tree_kernels_##name;
 FE_EACH_WIDE_SET(DECLARE)
 
@@ -54,7 +50,7 @@ int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int3
     if (!FE_RESERVE(memory, tree->slot, tree->slot_capacity, limit)) return 0;
     for (int32_t i = known; i < tree->slot_capacity; ++i) tree->slot[i] = -1;
 
-    int64_t more = (int64_t)extra + fe__mini(SPLIT_ROOM, ROOM_OF_A_NODE * tree->node_count);
+    int64_t more = fe__tree_room(extra, tree->node_count);
     // A quarter is worth a pass; less is not, or pairs of insertion and removal could ask for one each time.
     if (tree->node_count + more > tree->node_capacity && tree->dead > tree->node_count / 4) compact(tree);
     if (!FE_RESERVE(memory, tree->nodes, tree->node_capacity, tree->node_count + more)) return 0;

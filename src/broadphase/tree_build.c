@@ -321,13 +321,13 @@ static int32_t build(const fe__tree *tree, builder *b, fe_dvec3 shift)
     if (!b->items) return 0;
     collect(tree, shift, b->items);
     part whole = part_of(b->items, 0, tree->proxy_count);
-    // as many free nodes as before, for insertions that were promised not to fail
-    int64_t free_nodes = (int64_t)tree->node_capacity - tree->node_count;
-    // as large as before: it must not grow from one build to the next
+    // As large as before, or as what is reserved asks for. Not as many free nodes as before: what growing left over
+    // would be free in the next build, too, and so from build to build without end
     b->nodes = fe__allocate(b->memory, (size_t)tree->node_capacity * sizeof *b->nodes);
     b->capacity = b->nodes ? tree->node_capacity : 0;
-    int32_t built = b->nodes && build_node(b, &whole, -1, 0, 0) == 0 &&
-                    FE_RESERVE(b->memory, b->nodes, b->capacity, b->count + free_nodes);
+    int32_t built =
+        b->nodes && build_node(b, &whole, -1, 0, 0) == 0 &&
+        FE_RESERVE(b->memory, b->nodes, b->capacity, (int64_t)b->count + fe__tree_room(tree->promised, b->count));
     fe__release(b->memory, b->items, size);
     if (!built) discard(b);
     return built;

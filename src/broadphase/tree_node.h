@@ -65,6 +65,14 @@ FE_LANES_INLINE fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__b
                           __builtin_shufflevector(fe__quad_narrow(b, c), zero, 1, 2, 3, 4)};
 }
 
+// Free nodes for so many insertions into a tree of so many nodes: one each, and some so that nodes can be split, one
+// for each level of a deep tree, less in one of few nodes.
+static inline int64_t fe__tree_room(int32_t insertions, int32_t nodes)
+{
+    enum { SPLIT_ROOM = 32, ROOM_OF_A_NODE = 2 };
+    return (int64_t)insertions + fe__minl(SPLIT_ROOM, (int64_t)ROOM_OF_A_NODE * nodes);
+}
+
 // ---- one lane ------------------------------------------------------------------------------------------------------
 static inline fe__tree_box fe__lane_box(const fe__tree_node *node, int32_t lane)
 {

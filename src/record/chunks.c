@@ -7,6 +7,8 @@
 #include "state/format.h"
 #include "state/sum.h"
 
+#include <string.h>
+
 const unsigned char fe__recording_magic[8] = {'F', 'E', 'A', 'R', 'E', 'C', 'O', 0x1A};
 
 enum { OPS_BYTES = 1 << 16 }; // content of a chunk of calls, unless one call needs more
@@ -62,15 +64,35 @@ static fe__chunk *allocate(fe_recorder *r, int64_t capacity)
 }
 
 // ---- what no longer fits -------------------------------------------------------------------------------------------
-// The first keyframe and what follows it, up to the next one. Contents of assets stay, and the header
-static void forget_oldest(fe_recorder *r)
+static int32_t is_named(const fe_recorder *r, const fe__chunk *chunk)
 {
-    int32_t keyframes = 0;
+    const unsigned char *at = chunk->bytes + FE__CHUNK_HEADER;
+    fe__asset_key key;
+    key.words[0] = fe__take_u64(&at), key.words[1] = fe__take_u64(&at);
+    for (int32_t i = 0; i < r->content_count; ++i)
+        if (fe__keys_are_same(r->contents[i].key, key)) return 1;
+    return 0;
+}
+
+// Contents that were last named before the step
+static void forget_contents(fe_recorder *r, int64_t step)
+{
+    int32_t old = 0;
+    while (old < r->content_count && r->contents[old].named < step) ++old;
+    r->content_count -= old;
+    memmove(r->contents, r->contents + old, (size_t)r->content_count * sizeof *r->contents);
+}
+
+// Which chunks go: all but the header, contents that are named, and what is behind the first `keyframes` keyframes
+static void forget_chunks(fe_recorder *r, int32_t keyframes)
+{
     fe__chunk **at = &r->first, *last = NULL;
+    int32_t seen = 0;
     while (*at) {
         fe__chunk *chunk = *at;
-        keyframes += chunk->type == FE__CHUNK_KEYFRAME;
-        if (keyframes == 1 && chunk->type != FE__CHUNK_ASSET) {
+        seen += chunk->type == FE__CHUNK_KEYFRAME;
+        int32_t goes = chunk->type == FE__CHUNK_ASSET ? !is_named(r, chunk) : seen > 0 && seen <= keyframes;
+        if (goes) {
             *at = chunk->next;
             r->waiting -= chunk->size;
             chunk->next = r->spent;
@@ -81,6 +103,22 @@ static void forget_oldest(fe_recorder *r)
         at = &chunk->next;
     }
     r->last = last;
+}
+
+static int64_t step_of_keyframe(const fe_recorder *r, int32_t number)
+{
+    for (const fe__chunk *chunk = r->first; chunk; chunk = chunk->next) {
+        const unsigned char *at = chunk->bytes + 24;
+        if (chunk->type == FE__CHUNK_KEYFRAME && number-- == 0) return (int64_t)fe__take_u64(&at);
+    }
+    return r->step;
+}
+
+// The first keyframe and what follows it, up to the next one, and contents that nothing else names
+static void forget_oldest(fe_recorder *r)
+{
+    forget_contents(r, step_of_keyframe(r, 1));
+    forget_chunks(r, 1);
     r->keyframes -= 1;
 }
 

@@ -8,12 +8,33 @@
 #include "store/asset_bytes.h"
 #include "world/asset_users.h"
 
+#include <string.h>
+
 // ---- contents of assets --------------------------------------------------------------------------------------------
-static int32_t has_content(const fe_recorder *r, fe__asset_key key)
+// 1: it is in the file. Named now, it is the last to be forgotten
+static int32_t name_content(fe_recorder *r, fe__asset_key key)
 {
-    for (int32_t i = 0; i < r->content_count; ++i)
-        if (fe__keys_are_same(r->contents[i], key)) return 1;
+    for (int32_t i = r->content_count - 1; i >= 0; --i) {
+        if (!fe__keys_are_same(r->contents[i].key, key)) continue;
+        int32_t after = r->content_count - 1 - i;
+        memmove(r->contents + i, r->contents + i + 1, (size_t)after * sizeof *r->contents);
+        r->contents[r->content_count - 1] = (fe__known_content){key, r->step};
+        return 1;
+    }
     return 0;
+}
+
+// Of what was read, an asset may come and go for ever: the half that was named longest ago is forgotten. It is written
+// once more should it be named again
+static int32_t reserve_content(fe_recorder *r)
+{
+    enum { MANY = 256 };
+    int32_t half = r->content_count / 2;
+    if (!(r->flags & FE_RECORD_LAST) && r->content_count >= fe__maxi(MANY, 4 * r->world->use_count)) {
+        r->content_count -= half;
+        memmove(r->contents, r->contents + half, (size_t)r->content_count * sizeof *r->contents);
+    }
+    return FE_RESERVE(&r->memory, r->contents, r->content_capacity, r->content_count + 1);
 }
 
 static unsigned char *put_key(unsigned char *at, fe__asset_key key)
@@ -23,8 +44,8 @@ static unsigned char *put_key(unsigned char *at, fe__asset_key key)
 
 static void record_content(fe_recorder *r, const fe_store *store, const fe__asset *asset, fe__asset_key key)
 {
-    if (r->end != FE_OK || !(r->flags & FE_RECORD_ASSETS) || has_content(r, key)) return;
-    if (!FE_RESERVE(&r->memory, r->contents, r->content_capacity, r->content_count + 1)) {
+    if (r->end != FE_OK || !(r->flags & FE_RECORD_ASSETS) || name_content(r, key)) return;
+    if (!reserve_content(r)) {
         fe__recording_fails(r, FE_ERROR_MEMORY);
         return;
     }
@@ -36,7 +57,7 @@ static void record_content(fe_recorder *r, const fe_store *store, const fe__asse
     fe__asset_write(store, asset, at);
     fe__asset_seal(at, bytes);
     fe__chunk_close(r, chunk, size, 0, r->step);
-    r->contents[r->content_count++] = key;
+    r->contents[r->content_count++] = (fe__known_content){key, r->step};
 }
 
 // ---- assets that calls name ----------------------------------------------------------------------------------------
@@ -53,8 +74,18 @@ static void forget_asset(fe_recorder *r, fe_asset handle)
         if (r->assets[i].handle == handle) r->assets[i] = r->assets[--r->asset_count];
 }
 
-static void record_name(fe_recorder *r, fe_asset handle, fe__asset_key key)
+// Those that no call can name any more
+static void forget_dead(fe_recorder *r, const fe_store *store)
 {
+    int32_t slot, count = 0;
+    for (int32_t i = 0; i < r->asset_count; ++i)
+        if (fe__store_find(store, r->assets[i].handle, &slot) == FE_OK) r->assets[count++] = r->assets[i];
+    r->asset_count = count;
+}
+
+static void record_name(fe_recorder *r, const fe_store *store, fe_asset handle, fe__asset_key key)
+{
+    if (r->asset_count == r->asset_capacity) forget_dead(r, store);
     if (!FE_RESERVE(&r->memory, r->assets, r->asset_capacity, r->asset_count + 1)) {
         fe__mutex_lock(&r->lock);
         fe__recording_fails(r, FE_ERROR_MEMORY);
@@ -79,7 +110,7 @@ void fe__record_form(fe_recorder *r, const fe__form *form)
         fe__mutex_lock(&r->lock);
         record_content(r, store, asset, key);
         fe__mutex_unlock(&r->lock);
-        record_name(r, asset->handle, key);
+        record_name(r, store, asset->handle, key);
     }
     fe__store_unlock(store);
 }

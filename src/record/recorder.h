@@ -4,8 +4,8 @@
 // read, never in a step. Memory is asked for by the writer alone. When there is none, or no room, the recording ends;
 // the calls of the world go on as if nobody had recorded.
 //
-// With FE_RECORD_LAST chunks are not given away: keyframes and what follows them go, oldest first, as room is needed.
-// Contents of assets stay.
+// With FE_RECORD_LAST chunks are not given away: keyframes and what follows them go, oldest first, as room is needed,
+// and with them the contents of assets that nothing names any more.
 #ifndef FE_RECORD_RECORDER_H
 #define FE_RECORD_RECORDER_H
 #include "core/mutex.h"
@@ -26,6 +26,11 @@ typedef struct fe__known_asset {
     fe_asset handle;
     fe__asset_key key;
 } fe__known_asset;
+
+typedef struct fe__known_content {
+    fe__asset_key key;
+    int64_t named; // step of the last keyframe or call that names it
+} fe__known_content;
 
 // What steps are told as differences from; zeros where a chunk begins
 typedef struct fe__last_step {
@@ -67,7 +72,7 @@ struct fe_recorder {
 
     fe__known_asset *assets; // that calls name
     int32_t asset_count, asset_capacity;
-    fe__asset_key *contents; // that are in the file
+    fe__known_content *contents; // that are in the file, in the order in which they were last named
     int32_t content_count, content_capacity;
 };
 

@@ -267,13 +267,17 @@ static void return_arrays(returning *r)
     }
 }
 
-static void return_members(const returning *r)
+// The number of uses is read under the store's lock by who edits an asset. Without assets the lock is not held, and the
+// number, which is 0 and stays so, is not written
+static void return_members(const returning *r, int32_t with_assets)
 {
     fe_world *w = r->world;
     const unsigned char *at = r->held->members;
     const fe__tree_kernels *kernels = w->static_tree.kernels; // of this world's SIMD set
     for (int32_t i = 0; i < FE__MEMBERS; at += range_size(i), ++i)
-        memcpy((unsigned char *)w + fe__state_members[i].first, at, (size_t)range_size(i));
+        if (with_assets || fe__state_members[i].first != offsetof(fe_world, uses))
+            memcpy((unsigned char *)w + fe__state_members[i].first, at, (size_t)range_size(i));
+    w->use_capacity = held_int(r->held, offsetof(fe_world, use_capacity));
     for (int32_t i = 0; i < FE__ARRAYS; ++i) fe__array_set(w, fe__arrays + i, r->elements[i]);
     w->joints.axes = (fe__joint_axes *)(void *)w->joint_axes.records;
     w->static_tree.kernels = w->moving_tree.kernels = kernels;
@@ -283,13 +287,13 @@ fe_result fe__held_return(const fe__held *held, fe_world *w)
 {
     returning r = {.held = held, .world = w};
     if (!make_room(&r)) return FE_ERROR_MEMORY;
-    int32_t with_assets = held->asset_count || w->use_count; // without any nobody else looks at this world
+    int32_t with_assets = held->asset_count || w->use_count; // without any nobody else writes to this world
     if (with_assets) fe__store_lock(w->store);
     fe_result result = return_editions(&r);
     if (result == FE_OK) {
         return_uses(&r);
         return_arrays(&r);
-        return_members(&r);
+        return_members(&r, with_assets);
         fe__world_follow_state(w, held->burdened);
     } else {
         release_new(&r, FE__ARRAYS);

@@ -35,16 +35,6 @@ static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)
     }
 }
 
-// Another thread may have edited an asset since the forms were taken: nobody entered this world for it
-static void renew_forms(fe_world *w)
-{
-    for (int32_t i = 0; i < w->use_count; ++i) {
-        const fe__form form = fe__asset_form(w->store, w->uses[i].asset);
-        for (int32_t slot = w->uses[i].first_user; slot >= 0; slot = w->shapes[slot].next_user)
-            w->shapes[slot].form = form;
-    }
-}
-
 void fe__world_follow_state(fe_world *world, int32_t burdened)
 {
     world->solver.burdened = burdened;
@@ -54,7 +44,9 @@ void fe__world_follow_state(fe_world *world, int32_t burdened)
     if (world->scratch) atomic_store(&world->scratch->some_deferred, 1);
 }
 
-void fe__snapshot_adopt(fe_world *world, fe_world *beside)
+// Another thread may have edited an asset since the forms were taken: nobody entered the new state for it, so that it
+// learns of the edit here.
+void fe__snapshot_adopt(fe_world *world, fe_world *beside, int64_t editions)
 {
     fe__store_lock(world->store);
     for (int32_t i = 0; i < FE__MEMBERS; ++i) {
@@ -62,9 +54,9 @@ void fe__snapshot_adopt(fe_world *world, fe_world *beside)
         swap_bytes((unsigned char *)world + members->first, (unsigned char *)beside + members->first,
                    members->end - members->first);
     }
-    renew_forms(world);
-    fe__store_unlock(world->store);
     fe__world_follow_state(world, beside->solver.burdened);
+    if (world->store->editions != editions) fe__assets_renew(world);
+    fe__store_unlock(world->store);
 }
 
 void fe__snapshot_drop(fe_world *world, fe_world *beside)

@@ -18,7 +18,7 @@ void fe__state_destroy(fe_state *state);
 int32_t fe__state_lives(const fe_state *state); // from any thread
 
 // A world like another one, in which the caller is. The definition's workers, pool, tasks, allocator and SIMD set
-// count. Results: those of fe__world_create
+// count. Results: those of fe__world_create, and as there the caller is inside the new one
 fe_result fe__world_clone(const fe_world *source, const fe_world_def *def, fe_world **out_world);
 // One that is what the state holds; source: a world of the state's store
 fe_result fe__world_create_as(const fe__held *held, const fe_world *source, const fe_world_def *def,

@@ -1,8 +1,8 @@
 // due.c - see due.h. Where the bound of deferral.h does not decide, the exact test of recycle.simd.c does, and where
 // that does not, the narrow phase. Most pairs that it looks at are still apart: they wait on, from where they are now,
-// and no row and no points are reserved for them. So a step that finds no memory for the others may have looked: what
-// it wrote is what the same step writes when it is repeated, or would have asked once more. The narrow phase of those
-// that meet comes in its own stage, where there is room for what it finds.
+// and no row and no points are reserved for them. What was found of them is noted until all memory is there: a step
+// that finds none for the others changes nothing. The narrow phase of those that meet comes in its own stage, where
+// there is room for what it finds.
 #include "step/due.h"
 
 #include "step/narrow.h"
@@ -10,13 +10,56 @@
 
 enum { PAIRS_IN_BLOCK = 256 };
 
+// ---- what was found, until the step is sure -------------------------------------------------------------------------
+// It stands in the members of the deferral that are the contact's, and its place at the end of the busy list, which
+// has room for every awake pair: no pair is there twice. `spare` tells whether the contact changes.
+static void note(const fe__step *step, int32_t place, const fe__apart *found, int32_t is_anew)
+{
+    fe__step_scratch *s = step->scratch;
+    fe__deferral *d = step->world->deferrals + place;
+    d->arm_a = found->slack;
+    d->spare[0] = is_anew;
+    if (is_anew) fe__copy3(d->normal, found->normal), d->arm_b = found->axis_separation;
+    s->busy[s->busy_end - 1 - atomic_fetch_add_explicit(&s->noted_count, 1, memory_order_relaxed)] = place;
+}
+
+static void take_note(fe_world *w, int32_t place)
+{
+    fe__deferral *d = w->deferrals + place;
+    const int32_t pair = fe__pair_of(w->awake_pairs[place]);
+    const fe__apart found = {d->arm_b, d->arm_a, fe__quad_vector(d->normal)};
+    if (d->spare[0]) fe__write_apart(w, pair, &found);
+    fe__defer(d, w->odometers, w->bodies, w->contacts + pair, found.slack);
+}
+
+static void take_notes_of_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    const fe__step_scratch *s = step->scratch;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) take_note(step->world, s->busy[s->busy_end - 1 - i]);
+}
+
+void fe__keep_waiting(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    fe_world *w = step->world;
+    int32_t count = atomic_load(&s->noted_count);
+    if (!step->failed) fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, take_notes_of_block, step);
+    for (int32_t i = 0; i < count && step->failed; ++i) {
+        const int32_t place = s->busy[s->busy_end - 1 - i];
+        fe__deferral_aim(w->deferrals + place, w->contacts + fe__pair_of(w->awake_pairs[place]));
+    }
+}
+
+// ---- the search -----------------------------------------------------------------------------------------------------
 // What left its partner's box is for the collide stage, which ends it
 static int32_t waits_on(const fe__step *step, int32_t pair)
 {
-    fe_world *w = step->world;
-    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(step, pair)) return 0;
-    fe__defer(w->deferrals + w->pairs[pair].awake_index, w->odometers, w->bodies, w->contacts + pair,
-              w->contacts[pair].surface.tolerance);
+    const fe_world *w = step->world;
+    fe__apart found;
+    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(step, pair, &found)) return 0;
+    note(step, w->pairs[pair].awake_index, &found, 1);
     return 1;
 }
 
@@ -46,7 +89,7 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
     w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         if (verdicts[i] == FE__STAYS_APART)
-            fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);
+            note(step, places[i], &(fe__apart){.slack = slack[i]}, 0);
         else
             places[left++] = pairs[i];
     }
@@ -87,9 +130,11 @@ int32_t fe__find_due(fe__step *step)
     atomic_store(&s->due_count, 0);
     atomic_store(&s->waiting_count, 0);
     atomic_store(&s->apart_count, 0);
+    atomic_store(&s->noted_count, 0);
     // with heightfields none waits, see collide_stage.c
     if (w->field_pair_count || !atomic_load(&s->some_deferred)) return 1;
     if (!FE_RESERVE(w->step_memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;
+    s->busy_end = w->awake_pair_count;
     fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, find_in_block, step);
     return 1;
 }

@@ -325,19 +325,28 @@ static gap gap_of(const fe__view *v, const fe__manifold *found)
     return (gap){fe__dot(n, fe__sub(on_b, on_a)) - v->form_a.radius - v->b->form.radius, n};
 }
 
-// without points: not looked at again until the bodies may have closed `slack` of their gap
-static void write_apart(fe__pair *p, fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
-                        const fe__body *a, const fe__body *b, float slack, fe_vec3 normal)
+static fe__places places_now(const fe__body *a, const fe__body *b)
 {
-    int32_t a_is_b = m->body_a != v->a->body;
+    return (fe__places){fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
+}
+
+void fe__write_apart(fe_world *world, int32_t pair, const fe__apart *apart)
+{
+    fe__pair *p = world->pairs + pair;
+    fe__contact *m = world->contacts + pair;
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
+    const fe__places at = places_now(a, b);
+    int32_t a_is_x = m->body_a == x->body;
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
                   // not matter
-    m->surface.tolerance = slack;
-    note_poses(m, at, a, b);
-    set_no_points(m, q, a, b);
-    fe__copy3(m->normal, normal);
+    p->axis_separation = apart->axis_separation;
+    m->surface.tolerance = apart->slack;
+    note_poses(m, &at, a, b);
+    set_no_points(m, fe__points_of(world, m), a, b);
+    fe__copy3(m->normal, apart->normal);
     // what turns the core turns the round layer about it nowhere else
-    m->surface.radius_a = (a_is_b ? v->b : v->a)->arm, m->surface.radius_b = (a_is_b ? v->a : v->b)->arm;
+    m->surface.radius_a = (a_is_x ? x : y)->arm, m->surface.radius_b = (a_is_x ? y : x)->arm;
 }
 
 // ---- one-way shapes ------------------------------------------------------------------------------------------------
@@ -393,8 +402,10 @@ static int32_t may_outrun(const fe__body *a, const fe__shape *x, const fe__shape
     return a->type != FE_BODY_DYNAMIC && reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
 }
 
-// 1: done. 0: it has points, which it was not to write. The flags of the pair are read by others meanwhile
-static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points, int32_t *out_changes_sides)
+// 1: it is apart, and how is told. 0: it has points, which are written unless it was not to. The flags of the pair are
+// read by others meanwhile
+static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points, fe__apart *apart,
+                       int32_t *out_changes_sides)
 {
     fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
@@ -402,7 +413,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, a, b);
-    fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
+    fe__places at = places_now(a, b);
     fe__view v;
     int32_t ahead = 0, passed = (p->flags & FE__PAIR_PASSING) != 0;
     if (p->flags & FE__PAIR_SWAPPED)
@@ -420,8 +431,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     sides sides = p->flags & FE__PAIR_DENIED ? HOLDS : sides_of(world, pair, passing, &v, &found);
     *out_changes_sides = passed != (sides == PASSES);
     if (p->flags & FE__PAIR_DENIED || sides != HOLDS) {
-        p->axis_separation = axis_separation;
-        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
+        *apart = (fe__apart){.axis_separation = axis_separation};
         return 1;
     }
 
@@ -433,13 +443,12 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
         ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
     }
     if (ahead && !writes_points) return 0;
-    p->axis_separation = axis_separation;
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
-        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, fe__slack(left.distance, margin),
-                    solvers_normal(m, &v, left.normal));
+        *apart = (fe__apart){axis_separation, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal)};
         return 1;
     }
+    p->axis_separation = axis_separation;
     p->axis = axis;
     if (!m->points) fe__points_take(world, pair);
     match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found);
@@ -447,21 +456,22 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);
-    return 1;
+    return 0;
 }
 
 int32_t fe__collide_pair(const fe__step *step, int32_t pair)
 {
     int32_t changes_sides;
-    collide(step, pair, 1, &changes_sides);
+    fe__apart apart;
+    if (collide(step, pair, 1, &apart, &changes_sides)) fe__write_apart(step->world, pair, &apart);
     return changes_sides;
 }
 
-int32_t fe__collide_apart(const fe__step *step, int32_t pair)
+int32_t fe__collide_apart(const fe__step *step, int32_t pair, fe__apart *out_apart)
 {
     const fe__pair *p = step->world->pairs + pair;
     const fe__shape *shapes = step->world->shapes;
     int32_t changes_sides; // of one-way shapes
     if ((shapes[p->shape_a].flags | shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
-    return collide(step, pair, 0, &changes_sides);
+    return collide(step, pair, 0, out_apart, &changes_sides);
 }

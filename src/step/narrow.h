@@ -19,9 +19,16 @@ static inline float fe__slack(float gap, float margin)
 // The narrow phase of one pair. Only the pair is written, and of it not the flags. Returns whether it begins or ends to
 // pass a one-way shape
 int32_t fe__collide_pair(const fe__step *step, int32_t pair);
-// The same where no points are found, 1. Where they may be, and where others could tell what it writes (one-way shapes,
-// fast bodies): nothing, 0
-int32_t fe__collide_apart(const fe__step *step, int32_t pair);
+// What the narrow phase finds of a pair that gets no points
+typedef struct fe__apart {
+    float axis_separation; // of the pair
+    float slack;           // m: not looked at again until the bodies may have closed so much of their gap
+    fe_vec3 normal;        // of a plane between the two, world, from the contact's A; or 0
+} fe__apart;
+// Writes nothing. 1: no points are found. 0: they may be, or others could tell what fe__collide_pair writes (one-way
+// shapes, fast bodies)
+int32_t fe__collide_apart(const fe__step *step, int32_t pair, fe__apart *out_apart);
+void fe__write_apart(fe_world *world, int32_t pair, const fe__apart *apart); // what fe__collide_pair writes then
 
 // Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others, a
 // pair's own first, then those that they name

@@ -209,7 +209,10 @@ void fe__find_new_pairs(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__settle_sizes(w);
-    step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step) || !fe__reserve_step(step);
+    step->failed = !search_all(step) || !fe__thin_crowds(step);
+    if (step->failed) return;
+    step->failed = !fe__find_due(step) || !fe__reserve_step(step);
+    fe__keep_waiting(step);
     if (step->failed) return;
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i)

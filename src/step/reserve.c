@@ -242,7 +242,7 @@ static int32_t renew_trees(fe_world *w)
     return fe__trees_rebuild(trees, 2, &w->memory, 0);
 }
 
-int32_t fe__reserve_step(fe__step *step)
+static int32_t reserve_all(fe__step *step)
 {
     fe_world *w = step->world;
     if (!fe__find_joint_trees(w)) return 0;
@@ -258,4 +258,13 @@ int32_t fe__reserve_step(fe__step *step)
             (fe__bound_islands(step, &bound) &&
              fe__graph_reserve(&w->solver, w->step_memory, w->kernels, &bound, w->workers.count))) &&
            renew_trees(w);
+}
+
+// Whether a world has extras is part of its state: the first ones go again with a step that fails
+int32_t fe__reserve_step(fe__step *step)
+{
+    fe_world *w = step->world;
+    int32_t had_extras = w->extra_capacity > 0, is_done = reserve_all(step);
+    if (!is_done && !had_extras) FE_FREE(&w->memory, w->extras, w->extra_capacity);
+    return is_done;
 }

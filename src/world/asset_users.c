@@ -12,17 +12,19 @@
 #include <string.h>
 
 // ---- the store -----------------------------------------------------------------------------------------------------
+// A world that is in the store's list is read by who edits an asset: whatever they read stands before it joins.
 fe_result fe__world_open_store(fe_world *world, const fe_world_def *def, const fe_world *source)
 {
     world->member.world = world;
     if (source) {
-        fe__store_join_beside(source->store, &world->member);
         world->store = source->store;
+        fe__store_join_beside(source->store, &world->member);
         return FE_OK;
     }
     if (def->store) {
+        world->store = def->store;
         fe_result result = fe__store_join(def->store, &world->member);
-        if (result == FE_OK) world->store = def->store;
+        if (result != FE_OK) world->store = NULL;
         return result;
     }
     fe_result result = fe__store_create_own(def->allocator, world->number, &world->member, &world->store);
@@ -263,4 +265,17 @@ void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materia
     fe__mesh_write_materials(fe__store_asset(store, asset), materials, stride);
     fe__store_asset(store, asset)->edition = ++store->editions;
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_users(m->world, asset);
+}
+
+void fe__assets_renew(fe_world *world)
+{
+    for (int32_t i = 0; i < world->use_count; ++i) {
+        const fe__asset *a = fe__store_asset(world->store, world->uses[i].asset);
+        const fe__asset *parent = fe__store_parent(world->store, a->index);
+        if (a->kind == FE__ASSET_MESH) renew_users(world, parent->index);
+        if (a->kind != FE__ASSET_HEIGHTFIELD) continue;
+        fe__form form = fe__heightfield_form(&a->field, a->index);
+        fe__bounds all = fe__samples_bounds(&a->field, &(fe__samples){0, 0, a->field.rows, a->field.columns});
+        renew_shapes(world, a->index, &form, &all);
+    }
 }

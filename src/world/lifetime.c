@@ -40,6 +40,7 @@ fe_result fe__world_create(const fe_world_def *def, const fe_world *source, fe_w
     fe_world *world = fe__allocate(&memory, sizeof *world);
     if (!world) return FE_ERROR_MEMORY;
     world->memory = memory;
+    fe__owner_enter(&world->owner);
     world->step_memory = &world->memory;
     world->kernels = kernels;
     world->simd = kernels->simd;

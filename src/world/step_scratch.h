@@ -54,8 +54,9 @@ typedef struct fe__step_scratch {
     int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
     _Atomic int32_t due_count, waiting_count; // see step/due.c
     _Atomic int32_t apart_count;              // that the narrow phase found apart there
+    _Atomic int32_t noted_count;              // of those that wait on, at the end of the list: downwards from busy_end
     _Atomic int32_t some_deferred;            // 0: no awake pair does
-    int32_t busy_capacity;
+    int32_t busy_capacity, busy_end;
     int32_t *results; // pairs that begin, end or part in this step
     int32_t result_capacity;
     _Atomic int32_t result_count;

@@ -153,6 +153,62 @@ static void lines_and_points_are_cut_too(void **state)
     FE_TRUE(fe__clip_polygon(square, 4, out, 1, 0.0f) == 0);
 }
 
+// A convex polygon that turns right about a random place, its heights on one plane
+static int32_t random_polygon(fe__clip_vertex *p, const fe__disc *plane)
+{
+    int32_t count = 3 + (int32_t)uniform(0.0, 13.0);
+    double size = exp(uniform(-3.0, 1.5)), u = uniform(-1.5, 1.5), v = uniform(-1.5, 1.5), first = uniform(0.0, 6.28);
+    for (int32_t i = 0; i < count; ++i) {
+        double angle = first - 2.0 * 3.14159265 * i / count;
+        float x = (float)(u + size * cos(angle)), y = (float)(v + size * sin(angle));
+        p[i] = (fe__clip_vertex){x, y, plane->height + plane->slope_u * x + plane->slope_v * y,
+                                 fe__clip_id(i > 0 ? i - 1 : count - 1, i)};
+    }
+    return count;
+}
+
+// By how much a point is out of the polygon or the disc, whichever is more
+static double out_of_both(double u, double v, const fe__disc *disc, const fe__clip_vertex *p, int32_t count)
+{
+    double most = sqrt(u * u + v * v) - (double)disc->radius;
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__clip_vertex *a = &p[i], *b = &p[(i + 1) % count];
+        double du = (double)b->u - (double)a->u, dv = (double)b->v - (double)a->v;
+        double beyond = (du * (v - (double)a->v) - dv * (u - (double)a->u)) / sqrt(du * du + dv * dv);
+        most = fmax(most, beyond);
+    }
+    return most;
+}
+
+// What is cut lies in both, on the polygon's plane, and reaches as far as both do, but for what a rim reaches out
+// between two of its points: 1 - cos 11.25 degrees of its radius. A disc that lies wholly over the polygon leaves four
+// points.
+static void a_disc_cuts_what_both_have(void **state)
+{
+    (void)state;
+    int32_t whole = 0;
+    for (int32_t k = 0; k < CASES / 10; ++k) {
+        fe__disc disc = {1.0f, 0.1f, (float)uniform(-0.01, 0.01), (float)uniform(-0.01, 0.01), 3};
+        fe__clip_vertex polygon[FE_FACE_VERTICES], cut[FE_DISC_VERTICES];
+        int32_t count = random_polygon(polygon, &disc), left = fe__clip_disc(&disc, polygon, count, SLACK, 1.0f, cut);
+        FE_TRUE(left <= FE_DISC_VERTICES);
+        for (int32_t i = 0; i < left; ++i) {
+            FE_TRUE(out_of_both((double)cut[i].u, (double)cut[i].v, &disc, polygon, count) < 3e-5);
+            float height = disc.height + disc.slope_u * cut[i].u + disc.slope_v * cut[i].v;
+            FE_NEAR((double)cut[i].height, (double)height, 1e-5);
+        }
+        whole += left == 4 && cut[0].id == fe__clip_id(FE_CLIP_SIDE + 3, FE_CLIP_SIDE + 3);
+        double reach = left == 4 ? cos(0.7854) : cos(0.19635), angle = uniform(0.0, 6.28), du = cos(angle),
+               dv = sin(angle), most = -9.0;
+        for (int32_t i = 0; i < left; ++i) most = fmax(most, du * (double)cut[i].u + dv * (double)cut[i].v);
+        for (int32_t i = 0; i < 100; ++i) {
+            double u = uniform(-1.0, 1.0), v = uniform(-1.0, 1.0), along = du * u + dv * v;
+            if (out_of_both(u, v, &disc, polygon, count) < 0.0) FE_TRUE(along <= most + 1.0 - reach + 1e-5);
+        }
+    }
+    FE_TRUE(whole > 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +216,7 @@ int main(void)
         cmocka_unit_test(four_points_keep_the_deepest_and_most_of_the_area),
         cmocka_unit_test(what_carries_is_kept),
         cmocka_unit_test(lines_and_points_are_cut_too),
+        cmocka_unit_test(a_disc_cuts_what_both_have),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1003,6 +1003,35 @@ static void proxies_that_come_and_go_take_no_more_memory(void **state)
     assert_int_equal(memory.bytes, 0);
 }
 
+// The same with builds in between, at any moment and of any number of proxies: what one build has over is not in the
+// next one's need. A node has two children at least, so a build needs no more than the proxies and room for splits,
+// which growing rounds up by half.
+static void builds_in_any_number_take_no_more_memory(void **state)
+{
+    (void)state;
+    enum { MOST = 300, ROUNDS = 20000, SPLIT_ROOM = 32 };
+    fe__memory memory;
+    fe__memory_init(&memory, NULL);
+    fe__tree tree = {0};
+    place p = {{0.0, 0.0, 0.0}, 12.0, 0};
+    int32_t count = 0;
+    for (int32_t i = 0; i < ROUNDS; ++i) {
+        fe__bounds box = any_box(&p);
+        int32_t grows = count == 0 || (count < MOST && below(2));
+        if (grows) {
+            assert_int_equal(fe__tree_reserve(&tree, &memory, MOST, 1), 1);
+            fe__tree_insert(&tree, count++, &box);
+        } else {
+            fe__tree_remove(&tree, --count);
+        }
+        if (count && below(3) == 0) assert_int_equal(rebuild(&tree, &memory, 1), 1);
+        FE_WITHIN(tree.node_capacity, 1, 3 * (MOST * 4 / 3 + 1 + SPLIT_ROOM) / 2);
+    }
+    check_structure(&tree);
+    fe__tree_destroy(&tree, &memory);
+    assert_int_equal(memory.bytes, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1026,6 +1055,7 @@ int main(void)
         cmocka_unit_test(the_last_reserved_nodes_are_not_spent_on_splits),
         cmocka_unit_test(the_last_reserved_nodes_are_not_spent_on_the_first_splits),
         cmocka_unit_test(proxies_that_come_and_go_take_no_more_memory),
+        cmocka_unit_test(builds_in_any_number_take_no_more_memory),
     };
     return cmocka_run_group_tests_name("tree", tests, NULL, NULL);
 }

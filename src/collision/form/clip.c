@@ -2,12 +2,13 @@
 //
 // Input: two faces in the plane of one of them, from box_box.c and convex.c, which turn the vertices into contact
 // points. The rectangle's cut works on the four edges of the incident face side by side (Liang and Barsky, 1984)
-// without a branch; the general one is Sutherland and Hodgman's (1974).
+// without a branch; the general one is Sutherland and Hodgman's (1974). What has a rim is cut by the circle itself.
 #define FE_W 4
 #include "collision/form/clip.h"
 
 #include "core/simd.h"
 
+#include <float.h>
 #include <string.h>
 
 // ---- four lanes ----------------------------------------------------------------------------------------------------
@@ -195,6 +196,107 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
     }
     if (in != incident) memcpy(incident, in, sizeof(fe__clip_vertex) * (size_t)count);
     return count;
+}
+
+// ---- a disc --------------------------------------------------------------------------------------------------------
+#define C1 0.92387953f // cosines of 22.5, 45 and 67.5 degrees
+#define C2 0.70710678f
+#define C3 0.38268343f
+static const float rim_cos[FE_RIM_POINTS] = {1, C1, C2, C3, 0, -C3, -C2, -C1, -1, -C1, -C2, -C3, 0, C3, C2, C1};
+
+// The square of a vertex's distance from the rim's centre, less that of the rim: above 0 outside
+static float outside_by(const fe__clip_vertex *p, float square) { return p->u * p->u + p->v * p->v - square; }
+
+// Where the edge from p to q enters the disc and where it leaves: |p + t d|^2 = r^2
+static int32_t cross_rim(const fe__clip_vertex *p, const fe__clip_vertex *q, float p_out, float q_out, int32_t edge,
+                         fe__clip_vertex *out)
+{
+    fe__clip_vertex d = {q->u - p->u, q->v - p->v, q->height - p->height, 0};
+    float along = -(p->u * d.u + p->v * d.v), square = d.u * d.u + d.v * d.v, root = along * along - square * p_out;
+    if (p_out > 0.0f && q_out > 0.0f && !(root > 0.0f && along > 0.0f && along < square)) return 0;
+    root = sqrtf(fe__maxf(root, 0.0f));
+    int32_t count = 0;
+    if (p_out > 0.0f) {
+        float t = fe__clampf((along - root) / square, 0.0f, 1.0f);
+        out[count++] = (fe__clip_vertex){p->u + t * d.u, p->v + t * d.v, p->height + t * d.height,
+                                         fe__clip_id(FE_CLIP_SIDE, edge)};
+    }
+    if (q_out > 0.0f) {
+        float t = fe__clampf((along + root) / square, 0.0f, 1.0f);
+        out[count++] = (fe__clip_vertex){p->u + t * d.u, p->v + t * d.v, p->height + t * d.height,
+                                         fe__clip_id(edge, FE_CLIP_SIDE)};
+    }
+    return count;
+}
+
+static fe__clip_vertex rim_point(const fe__disc *disc, int32_t i)
+{
+    float u = disc->radius * rim_cos[i], v = disc->radius * rim_cos[(i + 12) % FE_RIM_POINTS];
+    return (fe__clip_vertex){u, v, disc->height + disc->slope_u * u + disc->slope_v * v,
+                             fe__clip_id(FE_CLIP_SIDE + i, FE_CLIP_SIDE + i)};
+}
+
+// of a polygon's edge: unit and out of the polygon, and how far from the rim's centre it is
+typedef struct edge_line {
+    float u, v, distance;
+} edge_line;
+
+// The least distance of the edges
+static float find_lines(const fe__clip_vertex *polygon, int32_t count, edge_line *line)
+{
+    float least = FLT_MAX;
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__clip_vertex *p = polygon + i, *q = polygon + (i + 1 < count ? i + 1 : 0);
+        float du = q->u - p->u, dv = q->v - p->v, length = sqrtf(du * du + dv * dv);
+        float inverse = length > 0.0f ? 1.0f / length : 0.0f;
+        line[i] = (edge_line){-inverse * dv, inverse * du, inverse * (p->v * du - p->u * dv)};
+        if (length > 0.0f) least = fe__minf(least, line[i].distance);
+    }
+    return least;
+}
+
+static int32_t is_over(const fe__clip_vertex *p, const edge_line *line, int32_t count, float slack)
+{
+    for (int32_t i = 0; i < count; ++i)
+        if (line[i].u * p->u + line[i].v * p->v > line[i].distance + slack) return 0;
+    return 1;
+}
+
+static int32_t whole_rim(const fe__disc *disc, float margin, fe__clip_vertex *out)
+{
+    float lean = sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
+    int32_t count = disc->height + disc->radius * lean <= margin ? 4 : FE_RIM_POINTS;
+    for (int32_t i = 0; i < count; ++i)
+        out[i] = rim_point(disc, (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS);
+    return count;
+}
+
+int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int32_t count, float slack, float margin,
+                      fe__clip_vertex out[FE_DISC_VERTICES])
+{
+    edge_line line[FE_FACE_VERTICES];
+    if (count > 2 && find_lines(polygon, count, line) >= disc->radius - slack) return whole_rim(disc, margin, out);
+    float reach = disc->radius + slack, square = reach * reach, outside[FE_FACE_VERTICES];
+    int32_t left = 0, sides = count > 2 ? count : count - 1, some_outside = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        outside[i] = outside_by(&polygon[i], square);
+        some_outside |= outside[i] > 0.0f;
+    }
+    if (!some_outside) {
+        memcpy(out, polygon, sizeof *polygon * (size_t)count);
+        return count;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t next = i + 1 < count ? i + 1 : 0;
+        if (!(outside[i] > 0.0f)) out[left++] = polygon[i];
+        if (i < sides && (outside[i] > 0.0f || outside[next] > 0.0f))
+            left += cross_rim(&polygon[i], &polygon[next], outside[i], outside[next], i, out + left);
+    }
+    for (int32_t i = 0; i < FE_RIM_POINTS && count > 2; ++i) {
+        fe__clip_vertex p = rim_point(disc, i);
+        if (is_over(&p, line, count, slack)) out[left++] = p;
+    }
+    return left;
 }
 
 // ---- four of many --------------------------------------------------------------------------------------------------

@@ -17,6 +17,8 @@ enum {
     FE_CLIP_SIDE = 16,
     FE_FACE_VERTICES = 16,                   // of the faces that the general path cuts, at most
     FE_CLIP_VERTICES = 2 * FE_FACE_VERTICES, // of their common polygon: each side of a convex one adds at most one
+    FE_RIM_POINTS = 16,                      // of a disc, at equal angles
+    FE_DISC_VERTICES = FE_CLIP_VERTICES + FE_RIM_POINTS, // of a disc and a face: each edge crosses it twice at most
 };
 
 static inline uint32_t fe__clip_id(int32_t before, int32_t after) { return (uint32_t)before << 8 | (uint32_t)after; }
@@ -36,6 +38,19 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
 // the count left.
 int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident,
                          int32_t count, float slack);
+
+// A disc about (0, 0), and its height over the other face or that of the other over it, which is
+// height + slope_u u + slope_v v. `low`: of the points at its rim, which begin at +u and turn left, the lowest.
+typedef struct fe__disc {
+    float radius, height, slope_u, slope_v;
+    int32_t low;
+} fe__disc;
+
+// Gives what a convex polygon that turns right, or a segment, has in common with a disc, both reaching `slack` beyond
+// their rims: the vertices on the disc, where edges cross its rim, and points of the rim over the polygon. A disc that
+// lies wholly over the polygon gives all of them, or, where none is above the margin, four, of which one is the lowest.
+int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int32_t count, float slack, float margin,
+                      fe__clip_vertex out[FE_DISC_VERTICES]);
 
 // Leaves at most four: the deepest, the farthest from it, and those that span most area on either side; of these, what
 // is clear of the face gives way to what lies below. Of vertices that are equal within `tie` (m) the first, so that

@@ -26,19 +26,19 @@ fe_dvec3 fe__rim_support(float radius, double y, fe_dvec3 direction)
 void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face)
 {
     float across = sqrtf(direction.x * direction.x + direction.z * direction.z), turn_cos = 1.0f, turn_sin = 0.0f;
+    int32_t nearest = 0, up = y > 0.0f;
     if (radius * across > fe__minf(LEVEL, LEVEL_SHARE * radius) * fe__length(direction)) {
         float x = direction.x / across, z = direction.z / across;
-        int32_t nearest = 0;
         for (int32_t i = 1; i < SECTORS; ++i)
             if (x * sector[i][0] + z * sector[i][1] > x * sector[nearest][0] + z * sector[nearest][1]) nearest = i;
         turn_cos = x * sector[nearest][0] + z * sector[nearest][1];
         turn_sin = z * sector[nearest][0] - x * sector[nearest][1];
     }
-    int32_t up = y > 0.0f;
     face->count = SECTORS;
     face->normal = fe__vec3(0.0f, up ? 1.0f : -1.0f, 0.0f);
     face->id = 1u + (uint32_t)up;
     face->rim = radius;
+    face->low = up ? (SECTORS - nearest) % SECTORS : nearest;
     for (int32_t i = 0; i < SECTORS; ++i) { // left around the normal: against the sense from x to z where it looks up
         const float *s = sector[up ? (SECTORS - i) % SECTORS : i];
         face->vertex[i] =

@@ -21,6 +21,7 @@ typedef struct fe__face {
     fe_vec3 vertex[FE_FACE_VERTICES];
     uint32_t id; // of the face within the form
     float rim;   // a disc's radius, of whose rim the vertices are some points; else 0
+    int32_t low; // of a disc: the vertex farthest along the direction asked for, or 0 where that is across the disc
 } fe__face;
 
 static inline void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face)

@@ -63,20 +63,6 @@ static void move_face(fe__face *face, const fe__relative *b_in_a)
         face->vertex[i] = fe__add(b_in_a->position, fe__mul(&b_in_a->rotation, face->vertex[i]));
 }
 
-// The line on a rounded side of B that is next to the polygon, as the nearest points' normal may lean from the
-// polygon's: else a corner beside the line would seem to lie under it.
-static void turn_side_of_b(const fe__form *b, const fe__relative *b_in_a, const fe__face *polygon, fe__face *side)
-{
-    if (side->count != 2 || !fe__form_is_curved(b)) return;
-    fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, polygon->normal)), side);
-    move_face(side, b_in_a);
-}
-
-static void turn_side_of_a(const fe__form *a, const fe__face *polygon, fe__face *side)
-{
-    if (side->count == 2 && fe__form_is_curved(a)) fe__form_face(a, fe__neg(polygon->normal), side);
-}
-
 // A frame in a polygon: origin at its first vertex, u along its first edge, n its normal.
 typedef struct plane_frame {
     fe_vec3 origin, u, v, n;
@@ -114,24 +100,6 @@ static float extent(const fe__face *face)
     return most;
 }
 
-// 1 - cos(11.25 degrees), of the radius: so far a rim reaches out between two of its points
-#define OUT_OF_RIM 0.0193f
-
-// A disc cuts as the polygon about its rim; what is out of the rim comes back to it.
-static void draw_in(float radius, const plane_frame *frame, const fe__face *disc, fe__clip_vertex *vertex,
-                    int32_t count)
-{
-    fe_vec3 middle = fe__scale(0.5f, fe__add(disc->vertex[0], disc->vertex[disc->count / 2]));
-    fe_vec3 d = fe__sub(middle, frame->origin);
-    float u = fe__dot(d, frame->u), v = fe__dot(d, frame->v);
-    for (int32_t i = 0; i < count; ++i) {
-        float du = vertex[i].u - u, dv = vertex[i].v - v, out = sqrtf(du * du + dv * dv);
-        if (!(out > radius)) continue;
-        vertex[i].u = u + du * (radius / out);
-        vertex[i].v = v + dv * (radius / out);
-    }
-}
-
 // Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the
 // margin, when the deepest of them says the same as the nearest points do; else nothing. Where the cores overlap, what
 // hangs over the rim has to come out too. `flip` is 1 when the reference is B's.
@@ -148,9 +116,7 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     float tie = fe__tie(0.25f * fe__length(diagonal));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
     if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
-    float slack = 0.1f * tie + rounding + OUT_OF_RIM * reference->rim;
-    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, slack), near = 0;
-    if (reference->rim > 0.0f) draw_in(reference->rim, &frame, reference, vertex, count);
+    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding), near = 0;
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     for (int32_t i = 0; i < count; ++i) {
@@ -176,48 +142,92 @@ static fe_vec3 middle_of(const fe__core_touch *found, const fe__form *a, const f
                                    fe__add_scaled(found->on_b, -b->radius, found->normal)));
 }
 
+// What two forms turn to each other, in A's frame
+typedef struct facing {
+    const fe__form *form[2];
+    const fe__relative *b_in_a;
+    fe__face face[2];
+    float cosine[2]; // of polygons' normals and that found; else 0
+} facing;
+
+static void face_towards(facing *f, int32_t k, fe_vec3 direction)
+{
+    if (k == 0) {
+        fe__form_face(f->form[0], direction, &f->face[0]);
+        return;
+    }
+    fe__form_face(f->form[1], fe__mul_transposed(&f->b_in_a->rotation, direction), &f->face[1]);
+    move_face(&f->face[1], f->b_in_a);
+}
+
+// The polygon of A (0) or B (1) as the reference. A curved form shows it the line on its side, or the lowest point of
+// its rim, that is next to it, as the nearest points' normal may lean from the polygon's: else a corner beside the line
+// would seem to lie under it.
+static int32_t cut_by(facing *f, int32_t k, const fe__core_touch *found, float margin, fe__manifold *manifold)
+{
+    const fe__form *own = f->form[k], *other = f->form[1 - k];
+    const fe__face *reference = &f->face[k], *incident = &f->face[1 - k];
+    if (!(f->cosine[k] > FE_FACE_COS)) return 0;
+    if (fe__form_is_curved(other) && (incident->count == 2 || f->cosine[k] < 1.0f))
+        face_towards(f, 1 - k, fe__neg(reference->normal));
+    if (!(reference->rim > 0.0f || incident->rim > 0.0f))
+        return clip_faces(reference, incident, own->radius, other->radius, k, found, margin, manifold);
+    float tie = fe__tie(fe__minf(fe__form_thickness(own), fe__form_thickness(other)));
+    return fe__cut_disc(reference, incident, own->radius + other->radius, k, found, tie, margin, manifold);
+}
+
+// The reference is the polygon whose normal was found; of equal ones that which is no disc, or A's. What hangs over its
+// rim may be deep under it where the other face's is not: then that.
+static int32_t touch_faces(facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
+{
+    const float rounding = 1e-6f, prefer_a = 1e-3f; // equal faces: A's
+    int32_t has_rim = f->face[0].rim > 0.0f || f->face[1].rim > 0.0f;
+    float equal = has_rim ? rounding : prefer_a, more = f->cosine[1] - f->cosine[0];
+    int32_t yields = f->face[0].rim > 0.0f && f->face[1].count > 2 && f->face[1].rim == 0.0f && more >= -equal;
+    int32_t first = more > equal || yields;
+    if (cut_by(f, first, found, margin, manifold) > 0) return 1;
+    return has_rim && cut_by(f, 1 - first, found, margin, manifold) > 0;
+}
+
+// Edges and sides along each other
+static int32_t touch_lines(const facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
+{
+    fe__segment segments[2];
+    const fe_vec3 axes[2] = {fe__vec3(0.0f, 1.0f, 0.0f), f->b_in_a->rotation.y};
+    if (f->face[0].count != 2 || f->face[1].count != 2) return 0;
+    for (int32_t i = 0; i < 2; ++i) {
+        const fe__form *form = f->form[i];
+        const fe_vec3 *end = f->face[i].vertex;
+        if (form->type == FE__FORM_CONE) return 0; // its side is no segment with a radius
+        if (fe__form_is_curved(form)) {
+            const float across = 1e-4f; // the normal's part along the axis: else its rim is touched
+            if (fe__absf(fe__dot(axes[i], found->normal)) > across) return 0;
+            segments[i].centre = i == 0 ? fe__vec3(0.0f, 0.0f, 0.0f) : f->b_in_a->position;
+            segments[i].half = fe__scale(form->half.y, axes[i]);
+            segments[i].radius = form->half.x;
+            continue;
+        }
+        segments[i].centre = fe__scale(0.5f, fe__add(end[0], end[1]));
+        segments[i].half = fe__scale(0.5f, fe__sub(end[1], end[0]));
+        segments[i].radius = form->radius;
+    }
+    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, f->form[0], f->form[1]),
+                            found->separation, margin, manifold);
+}
+
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
                                     const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
-    fe__face face_a, face_b;
-    fe__form_face(a, found->normal, &face_a);
-    fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, found->normal)), &face_b);
-    if (face_a.count == 1 || face_b.count == 1) return 0; // nothing but the nearest points
-    move_face(&face_b, b_in_a);
-    float cos_a = face_a.count > 2 ? fe__dot(face_a.normal, found->normal) : 0.0f;
-    float cos_b = face_b.count > 2 ? -fe__dot(face_b.normal, found->normal) : 0.0f;
-    const float prefer_a = 1e-3f; // equal faces: A's
-    // a disc is rather cut: the points of its rim stay, and the deepest is one of them
-    int32_t yields = face_a.rim > 0.0f && face_b.count > 2 && face_b.rim == 0.0f && cos_b > FE_FACE_COS;
-    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b && !yields) {
-        turn_side_of_b(b, b_in_a, &face_a, &face_b);
-        return clip_faces(&face_a, &face_b, a->radius, b->radius, 0, found, margin, manifold);
-    }
-    if (cos_b > FE_FACE_COS) {
-        turn_side_of_a(a, &face_b, &face_a);
-        return clip_faces(&face_b, &face_a, b->radius, a->radius, 1, found, margin, manifold);
-    }
-    if (face_a.count != 2 || face_b.count != 2) return 0;
-    fe__segment segments[2];
-    const fe__face *faces[2] = {&face_a, &face_b};
-    const fe__form *forms[2] = {a, b};
-    const fe_vec3 axes[2] = {fe__vec3(0.0f, 1.0f, 0.0f), b_in_a->rotation.y};
-    for (int32_t i = 0; i < 2; ++i) {
-        if (forms[i]->type == FE__FORM_CONE) return 0; // its side is no segment with a radius
-        if (fe__form_is_curved(forms[i])) {
-            const float across = 1e-4f; // the normal's part along the axis: else its rim is touched
-            if (fe__absf(fe__dot(axes[i], found->normal)) > across) return 0;
-            segments[i].centre = i == 0 ? fe__vec3(0.0f, 0.0f, 0.0f) : b_in_a->position;
-            segments[i].half = fe__scale(forms[i]->half.y, axes[i]);
-            segments[i].radius = forms[i]->half.x;
-            continue;
-        }
-        segments[i].centre = fe__scale(0.5f, fe__add(faces[i]->vertex[0], faces[i]->vertex[1]));
-        segments[i].half = fe__scale(0.5f, fe__sub(faces[i]->vertex[1], faces[i]->vertex[0]));
-        segments[i].radius = i == 0 ? a->radius : b->radius;
-    }
-    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, a, b), found->separation,
-                            margin, manifold);
+    facing f = {.form = {a, b}, .b_in_a = b_in_a};
+    face_towards(&f, 0, found->normal);
+    face_towards(&f, 1, fe__neg(found->normal));
+    int32_t is_point = f.face[0].count == 1 || f.face[1].count == 1,
+            has_rim = f.face[0].rim > 0.0f || f.face[1].rim > 0.0f;
+    if (is_point && !has_rim) return 0; // nothing but the nearest points; of a ball on a disc they are less exact
+    for (int32_t k = 0; k < 2; ++k)
+        if (f.face[k].count > 2) f.cosine[k] = (k ? -1.0f : 1.0f) * fe__dot(f.face[k].normal, found->normal);
+    if (fe__maxf(f.cosine[0], f.cosine[1]) > FE_FACE_COS) return touch_faces(&f, found, margin, manifold);
+    return touch_lines(&f, found, margin, manifold);
 }
 
 // A half space has no support point against itself, but the other's is all it takes: B's deepest point and the face

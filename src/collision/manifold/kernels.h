@@ -79,6 +79,13 @@ int32_t fe__sharpen(const struct fe__cores *cores, fe__core_touch *found);
 int32_t fe__look_again(const struct fe__cores *cores, int32_t axis, fe_vec3 last, fe__core_touch *found);
 int32_t fe__axis_is_of_face(int32_t axis);
 
+// Two faces that look at each other, of which one is a disc or both are, one cut by the other (disc.c). `flip`: the
+// reference, whose normal is the contact's, is B's. Gives the points below the margin, when the deepest of them says
+// the same within a tie as was found; else nothing. Returns their number.
+struct fe__face;
+int32_t fe__cut_disc(const struct fe__face *reference, const struct fe__face *incident, float radii, int32_t flip,
+                     const fe__core_touch *found, float tie, float margin, fe__manifold *manifold);
+
 // Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the
 // surfaces there: gives the two ends of the stretch along which they run side by side, if that says the same as the
 // nearest points do; a few degrees askew these and the nearest point; else nothing. Returns the number of points added,

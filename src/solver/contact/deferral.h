@@ -70,6 +70,16 @@ static inline void fe__odometer_turn(fe__odometer *o, float half_sine)
 
 static inline int32_t fe__has_direction(const float *n) { return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f; }
 
+// What a deferral has of its contact, which has no points
+static inline void fe__deferral_aim(fe__deferral *p, const fe__contact *m)
+{
+    int32_t has_direction = fe__has_direction(m->normal);
+    for (int k = 0; k < 3; ++k) p->normal[k] = m->normal[k];
+    p->arm_a = has_direction ? m->surface.radius_a : m->longest_arm;
+    p->arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
+    p->body_a = m->body_a, p->body_b = m->body_b;
+}
+
 // From now on: of a contact without points, whose gap is `gap`, m
 static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, const fe__body *bodies,
                              const fe__contact *m, float gap)
@@ -80,15 +90,11 @@ static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, con
     for (int k = 0; k < 3; ++k) {
         float shift = (float)(at_b[k] - at_a[k] + (double)m->found_span[k]);
         square += shift * shift;
-        p->normal[k] = m->normal[k];
         p->apart[k] = b->at[k] - a->at[k];
     }
-    int32_t has_direction = fe__has_direction(m->normal);
-    p->arm_a = has_direction ? m->surface.radius_a : m->longest_arm;
-    p->arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
+    fe__deferral_aim(p, m);
     // of the exact test, m: it must come to the same
     const float rounding = 1e-5f * (1.0f + fe__maxf(p->arm_a, p->arm_b) + gap);
-    p->body_a = m->body_a, p->body_b = m->body_b;
     p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
     p->turned_a = a->turned, p->turned_b = b->turned;
     p->most = fe__minf(FE__MOST_TRAVEL, fe__most_away(m) - sqrtf(square) - rounding);

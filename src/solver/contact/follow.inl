@@ -164,11 +164,14 @@ FE_INLINE wide NAMED(weight_of_b)(const ROW *row, wide_mask is_static, int kind)
     return w_choose(is_static, one, weight);
 }
 
+// Lanes whose arms count from B's centre. A kinematic body that sleeps reads the line of static ones, but its arms
+// count from its own centre, as those of any body that may move: only a static A has no span.
 FE_INLINE wide_mask NAMED(static_lanes)(const ROW *row)
 {
     _Alignas(64) float is_static[FE_W];
     for (int i = 0; i < FE_W; ++i) is_static[i] = row->line_a[i] == FE__STATIC_LINE ? 1.0f : 0.0f;
-    return w_greater(*(const wide *)is_static, w_set(0.0f));
+    wide3 span = load3(row->start_span);
+    return w_and(w_greater(*(const wide *)is_static, w_set(0.0f)), w_not(w_greater(w_dot(span, span), w_set(0.0f))));
 }
 
 // Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's

@@ -99,8 +99,8 @@ FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const
     UNROLL for (int i = 0; i < POINTS; ++i) x->approach[i] = x->flight[i] = w_set(0.0f);
 }
 
-// Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static
-// and kinematic A's
+// The span between the arms as found. Those of a static A count from B's centre, with no span between them; a special
+// row holds static and kinematic A's.
 FE_INLINE wide3 NAMED(span_found)(const ROW *row, wide3 span, int kind)
 {
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return w_zero3();
