@@ -7,6 +7,8 @@
 //     min(a, b) = a < b ? a : b       max(a, b) = a > b ? a : b
 #ifndef FE_CORE_LANES_H
 #define FE_CORE_LANES_H
+#include "core/contraction.h"
+
 #include <stdint.h>
 #if defined(__SSE2__) && !defined(FE_PLAIN_C)
 #ifdef __AVX__

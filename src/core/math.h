@@ -1,9 +1,10 @@
 // math.h - vectors, quaternions and matrices of the scalar code.
 //
 // The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so
-// that each compiler gives the same bits (-ffp-contract=off). Trigonometry is in trig.h; libm beyond sqrt is not used.
+// that each compiler gives the same bits (contraction.h). Trigonometry is in trig.h; libm beyond sqrt is not used.
 #ifndef FE_CORE_MATH_H
 #define FE_CORE_MATH_H
+#include "core/contraction.h"
 #include "feather.h"
 
 #include <math.h>

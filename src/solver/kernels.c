@@ -1,4 +1,5 @@
 // kernels.c - which SIMD sets were built, which of them this CPU has, and the choice between them.
+#include "core/cpu.h"
 #include "core/simd_sets.h"
 #include "solver/solver.h"
 
@@ -67,18 +68,6 @@ static const fe__kernels sets[] = {
 };
 enum { SET_COUNT = sizeof sets / sizeof *sets };
 
-static int32_t cpu_has(int32_t simd)
-{
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_cpu_init();
-    if (simd == FE_SIMD_SSE2) return __builtin_cpu_supports("sse2") != 0;
-    if (simd == FE_SIMD_AVX2) return __builtin_cpu_supports("avx2") != 0;
-    if (simd == FE_SIMD_AVX512) return __builtin_cpu_supports("avx512f") != 0;
-#endif
-    return simd == FE_SIMD_PLAIN || simd == FE_SIMD_NEON ||
-           simd == FE_SIMD_WASM; // nobody runs a module that lacks them
-}
-
 static int32_t environment_choice(void)
 {
     static const char *const names[] = {"auto", "plain", "sse2", "avx2", "avx512", "neon", "wasm"}; // by fe_simd
@@ -91,7 +80,8 @@ static int32_t environment_choice(void)
 const fe__kernels *fe__kernels_of(int32_t simd)
 {
     if (simd == FE_SIMD_AUTO) simd = environment_choice();
+    uint32_t here = fe__simd_here();
     for (int32_t i = SET_COUNT - 1; i >= 0; --i)
-        if ((simd == FE_SIMD_AUTO || sets[i].simd == simd) && cpu_has(sets[i].simd)) return sets + i;
+        if ((simd == FE_SIMD_AUTO || sets[i].simd == simd) && (here >> sets[i].simd & 1)) return sets + i;
     return NULL;
 }

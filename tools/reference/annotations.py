@@ -12,6 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 HEADER = header.read()
 FUNCTIONS = HEADER.functions
 LAYER = ROOT / "bindings/lua/feather"
+# Of fields that hold bits by axis, the layer takes letters: "xz"
+AXIS_LETTERS = set(re.findall(r"(\w+) = AXIS_LETTERS", (LAYER / "options.lua").read_text()))
 CLASSES = "World Body Shape Joint Store Pool Hull Mesh Heightfield Compound History".split()
 CLASSES += "Recorder Recording Player State Batch".split()
 
@@ -176,6 +178,11 @@ def camel(name):
     return re.sub(r"_([a-z0-9])", lambda m: m[1].upper(), name)
 
 
+def told_of(one):
+    """A field's sentences, for a layer that takes letters where C takes bits."""
+    return 'letters of "xyz": ' + re.sub(r"^FE_AXIS_X \| \.\.\.: ", "", one.told) if one.name in AXIS_LETTERS else one.told
+
+
 def field_type(name, kind, is_list, told):
     if is_list or kind in SPREAD:
         return "number[]"
@@ -184,6 +191,8 @@ def field_type(name, kind, is_list, told):
     if kind in ("fe_handle", "fe_asset") or kind in OBJECTS:
         return "integer"
     if kind in INTEGERS:
+        if name in AXIS_LETTERS:
+            return "string"
         if re.search(r"enabled$|^(awake|trigger|bullet|sleep_allowed|pair_filter|collide_connected|one_way)$", name):
             return "boolean"
         return "integer|string|string[]" if re.search(r"\bfe_\w+\b|\bFE_[A-Z]", told) else "integer"
@@ -418,7 +427,7 @@ def options_text(name, struct, extra):
     lines = [f"---@class feather.{name}"] + [f"---@field {key}? {kind}" for key, kind in extra.items()]
     for one in fields_of(struct, extra):
         kind = field_type(one.name, one.kind, one.is_pointer or one.count > 0, one.told)
-        head, short = f"---@field {camel(one.name)}? {kind}", sentence(one.told)
+        head, short = f"---@field {camel(one.name)}? {kind}", sentence(told_of(one))
         lines.append(f"{head} {short}" if short and len(head) + len(short) < 118 else head)
     return lines + [""]
 

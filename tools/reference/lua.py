@@ -58,7 +58,7 @@ def options_group(name, struct, extra):
         made.append(Member(key, key, "", is_value=True, kind=shown(kind)))
     for one in annotations.fields_of(struct, extra):
         kind = annotations.field_type(one.name, one.kind, one.is_pointer or one.count > 0, one.told)
-        made.append(Member(camel(one.name), camel(one.name), one.told, is_value=True, kind=shown(kind)))
+        made.append(Member(camel(one.name), camel(one.name), annotations.told_of(one), is_value=True, kind=shown(kind)))
     return Group(name, annotations.HEADER.structs[struct].told, "", made)
 
 

@@ -24,8 +24,8 @@
 ---@field angularDamping? number 1/s, >= 0.
 ---@field gravityScale? number Default 1
 ---@field sleepThreshold? number may sleep when its fastest point is slower, m/s, >= 0.
----@field linearLocks? integer|string|string[] FE_AXIS_X | ...: world axes along which it cannot move.
----@field angularLocks? integer world axes about which it cannot rotate.
+---@field linearLocks? string letters of "xyz": world axes along which it cannot move.
+---@field angularLocks? string letters of "xyz": world axes about which it cannot rotate.
 ---@field awake? boolean 0: starts asleep, at rest.
 ---@field sleepAllowed? boolean Default 1
 ---@field enabled? boolean 0: neither moves, nor collides, nor is seen by queries.

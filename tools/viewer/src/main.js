@@ -182,11 +182,15 @@ class App {
         if (playback.error) return playback.error + to;
         return recording.left ? `cut at byte ${recording.bytes}${to}` : '';
     }
-    #judge() {
-        const { recording, playback } = this, { bytes } = recording;
-        const size = bytes > 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.ceil(bytes / 1e3)} KB`;
+    // The head: what the step that is shown has, since a recording may begin in an empty world
+    #facts() {
+        const { bytes } = this.recording, size = bytes > 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.ceil(bytes / 1e3)} KB`;
         const c = this.world?.counters; // a world that was taken over is no longer the player's
         $('facts').textContent = c ? `${c.bodies} bodies${c.joints ? `, ${c.joints} joints` : ''} · ${size}` : size;
+    }
+    #judge() {
+        const { recording, playback } = this;
+        this.#facts();
         const sentence = this.#sentence();
         if (sentence) this.say(sentence, recording.broken || playback.error ? 'bad' : 'warm');
         else if (playback.ready && playback.player.info.foreign) {
@@ -349,7 +353,7 @@ class App {
         const isFiltered = this.outline.tab === 'bodies' && $('filter').value !== 'all';
         $('told').textContent = `${c.awakeBodies} awake · ${c.contacts} contacts · ${ms} ms a step`;
         if (c.bodies === this.bodies && c.joints === this.joints && !(force && isFiltered)) return;
-        this.bodies = c.bodies, this.joints = c.joints, this.outline.show();
+        this.bodies = c.bodies, this.joints = c.joints, this.outline.show(), this.#facts();
     }
     panels() { this.#panels(performance.now(), true); }
     layout() {

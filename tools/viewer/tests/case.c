@@ -1,6 +1,7 @@
 // case.c - recordings for the viewer's test, and what the library says of them, as JSON.
-//   feather-viewer-case FOLDER        writes a.feather, b.feather
-// b is a, but for one velocity that is changed before step NUDGED.
+//   feather-viewer-case FOLDER        writes a.feather, b.feather, empty.feather
+// b is a, but for one velocity that is changed before step NUDGED. empty begins with an empty world, to which each step
+// adds a body.
 #include "feather.h"
 
 #include <stdio.h>
@@ -8,7 +9,7 @@
 #include <string.h>
 
 #define DT (1.0f / 120.0f)
-enum { STEPS = 400, NUDGED = 150, BOXES = 6, MOST = 1 << 24, KEYFRAMES = 100, ASKED = 5 };
+enum { STEPS = 400, NUDGED = 150, BOXES = 6, MOST = 1 << 24, KEYFRAMES = 100, ASKED = 5, ADDED = 7 };
 static const int asked[ASKED] = {0, 1, 57, 200, STEPS};
 
 static void must(fe_result result)
@@ -110,6 +111,25 @@ static int64_t record(run *r, int is_nudged, int is_told, unsigned char *bytes)
     return size;
 }
 
+static int64_t record_from_nothing(unsigned char *bytes)
+{
+    fe_world *world;
+    fe_recorder *recorder;
+    fe_geometry ball;
+    int64_t size;
+    must(fe_world_create(NULL, &world));
+    must(fe_recorder_create(world, NULL, &recorder));
+    fe_geometry_sphere(&ball, 0.5f);
+    for (int step = 0; step < ADDED; ++step) {
+        add(world, FE_BODY_DYNAMIC, fe_make_transform(2.0 * step, 0, 0), &ball);
+        must(fe_world_step(world, DT));
+    }
+    must(fe_recorder_read(recorder, bytes, MOST, &size));
+    must(fe_recorder_destroy(recorder));
+    must(fe_world_destroy(world));
+    return size;
+}
+
 static void write_file(const char *folder, const char *name, const unsigned char *bytes, int64_t size)
 {
     char path[4096];
@@ -147,8 +167,10 @@ int main(int count, char **arguments)
            (long long)size);
     size = record(&b, 1, 0, bytes);
     write_file(arguments[1], "b.feather", bytes, size);
+    write_file(arguments[1], "empty.feather", bytes, record_from_nothing(bytes));
     int first = 0;
     while (first < STEPS && memcmp(a.hashes[first], b.hashes[first], sizeof a.hashes[first]) == 0) ++first;
+    printf("\"added\": %d,\n", ADDED);
     printf("\"first\": %d, \"nudged\": \"%llu\", \"last\": %d, \"pendulum\": \"%llu\", \"top\": \"%llu\", \"hinge\": "
            "\"%llu\"}\n",
            first, (unsigned long long)a.boxes[2], STEPS, (unsigned long long)a.pendulum,

@@ -57,6 +57,16 @@ test('the page shows the values of what is picked, and what a note calls it', as
     assert.ok((await page.innerText('#inspector')).includes(`${((wanted.angle * 180) / Math.PI).toFixed(3).replace('-', '−').slice(0, 5)}`));
 });
 
+test('the head tells what the step that is shown has, of a recording begun in an empty world too', async () => {
+    const other = await openPage(browser);
+    await drop(other, [{ name: 'empty.feather', bytes: read('empty.feather') }]);
+    for (const step of [1, said.added, 2]) {
+        await other.evaluate((at) => { viewer.jump(at), viewer.panels(); }, step);
+        assert.match(await other.innerText('#facts'), new RegExp(`^${step} bod`));
+    }
+    await other.close();
+});
+
 test('a click picks the body under it', async () => {
     const at = await page.evaluate(({ top }) => {
         viewer.jump(0), viewer.pick(null), viewer.focus();
