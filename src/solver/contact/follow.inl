@@ -152,23 +152,29 @@ FE_INLINE void NAMED(apply_all)(const ROW *row, pair *p, int kind)
 }
 
 // ---- points ---------------------------------------------------------------------------------------------------------
-// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two
-// alike, each has it on its own side, and it is between. Weight of B's: all of it where A is static, whose arms count
+// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one. Of two
+// alike each has it on its own side, and it is between: of flat ones in the inverse ratio of the squares of its arms,
+// as what slides over something larger takes it along. Weight of B's: all of it where A is static, whose arms count
 // from B's centre.
 FE_INLINE wide NAMED(weight_of_b)(const ROW *row, wide_mask is_static, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return one;
     wide_mask a = w_greater(row->round_a, zero), b = w_greater(row->round_b, zero);
-    wide weight = w_choose(w_and(b, w_not(a)), one, w_choose(w_and(a, w_not(b)), zero, w_set(0.5f)));
+    wide3 arm_a = load3(row->first_a[POINTS]), arm_b = load3(row->first_b[POINTS]);
+    wide square = w_dot(arm_a, arm_a);
+    wide between = w_choose(a, w_set(0.5f), square * w_inverse_or_zero(square + w_dot(arm_b, arm_b)));
+    wide weight = w_choose(w_and(b, w_not(a)), one, w_choose(w_and(a, w_not(b)), zero, between));
     return w_choose(is_static, one, weight);
 }
 
+// A sleeping kinematic body has the line of static ones, but its arms count from its own centre
 FE_INLINE wide_mask NAMED(static_lanes)(const ROW *row)
 {
     _Alignas(64) float is_static[FE_W];
     for (int i = 0; i < FE_W; ++i) is_static[i] = row->line_a[i] == FE__STATIC_LINE ? 1.0f : 0.0f;
-    return w_greater(*(const wide *)is_static, w_set(0.0f));
+    wide3 span = load3(row->start_span);
+    return w_and(w_greater(*(const wide *)is_static, w_set(0.0f)), w_not(w_greater(w_dot(span, span), w_set(0.0f))));
 }
 
 // Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's
