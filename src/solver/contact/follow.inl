@@ -152,15 +152,19 @@ FE_INLINE void NAMED(apply_all)(const ROW *row, pair *p, int kind)
 }
 
 // ---- points ---------------------------------------------------------------------------------------------------------
-// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two
-// alike, each has it on its own side, and it is between. Weight of B's: all of it where A is static, whose arms count
+// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one. Of two
+// alike each has it on its own side, and it is between: of flat ones in the inverse ratio of the squares of its arms,
+// as what slides over something larger takes it along. Weight of B's: all of it where A is static, whose arms count
 // from B's centre.
 FE_INLINE wide NAMED(weight_of_b)(const ROW *row, wide_mask is_static, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return one;
     wide_mask a = w_greater(row->round_a, zero), b = w_greater(row->round_b, zero);
-    wide weight = w_choose(w_and(b, w_not(a)), one, w_choose(w_and(a, w_not(b)), zero, w_set(0.5f)));
+    wide3 arm_a = load3(row->first_a[POINTS]), arm_b = load3(row->first_b[POINTS]);
+    wide square = w_dot(arm_a, arm_a);
+    wide between = w_choose(a, w_set(0.5f), square * w_inverse_or_zero(square + w_dot(arm_b, arm_b)));
+    wide weight = w_choose(w_and(b, w_not(a)), one, w_choose(w_and(a, w_not(b)), zero, between));
     return w_choose(is_static, one, weight);
 }
 

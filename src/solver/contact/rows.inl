@@ -328,6 +328,29 @@ FE_INLINE wide NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
 
 // ---- friction -------------------------------------------------------------------------------------------------------
 
+// Of the impulses l within Coulomb's cone, |l| <= c, those of a contact that slides dissipate most (J. Moreau, 1988):
+//     u' = u + K (l - l0) = -k l,  |l| = c        they oppose the slip u' that is left
+//     l = -(K + k)^-1 (u - K l0)                  l0: the impulse before, with which the slip is u
+// k = |u'| / c is not known before u' is, but |u| / c is nearly the same, and the same for what slides on from pass to
+// pass. With M = K^-1 and s = c / |u| tr M, the direction of l is that of
+//     s (l0 - M u) + adj(M) l0 / tr M - u det M / tr M
+// The first term alone, l0 - M u, would stop the slip. Cut off at the cone it leads a body that rotates more easily one
+// way than the other from its line.
+static __attribute__((noinline)) void NAMED(slide)(const ROW *row, wide v1, wide v2, wide stick, wide_mask beyond,
+                                                   wide *l1, wide *l2)
+{
+    const wide *m = row->tangent_mass, *l0 = row->tangent_impulse;
+    wide slide = row->dynamic_friction * NAMED(load_of)(row), square = *l1 * *l1 + *l2 * *l2;
+    wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
+    wide per_trace = w_inverse_or_zero(m[0] + m[2]), n0 = per_trace * m[0], n1 = per_trace * m[1];
+    wide part = w_min(most * per_trace / w_sqrt(v1 * v1 + v2 * v2), w_set(MOST_PART)), u = n0 * m[2] - n1 * m[1];
+    wide w1 = part * *l1 + ((1.0f - n0) * l0[0] - n1 * l0[1] - u * v1);
+    wide w2 = part * *l2 + (n0 * l0[1] - n1 * l0[0] - u * v2);
+    wide scale = most / w_sqrt(w_max(w1 * w1 + w2 * w2, w_set(FLT_MIN)));
+    *l1 = w_choose(beyond, scale * w1, *l1);
+    *l2 = w_choose(beyond, scale * w2, *l2);
+}
+
 // Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum
 // l_i. Twist reaches the tangents through twist_tangent, so that both are applied to the bodies at once. A contact
 // sticks up to the static friction; one that would need much more slides, with the dynamic one. What the tangents
@@ -354,12 +377,12 @@ FE_INLINE wide NAMED(solve_friction)(ROW *row, pair *p, wide stretch, int kind)
     wide least = w_set(FE__LEAST_IMPULSE),
          l1 = w_flush(row->tangent_impulse[0] - stretch * (m[0] * v1 + m[1] * v2), least),
          l2 = w_flush(row->tangent_impulse[1] - stretch * (m[1] * v1 + m[2] * v2), least);
-    wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
-    wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
-    wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
     wide_mask bears = w_greater(load, w_set(0.0f)); // else none, however little was requested
-    l1 = w_choose(bears, l1 * shrink, w_set(0.0f));
-    l2 = w_choose(bears, l2 * shrink, w_set(0.0f));
+    wide stick = row->static_friction * load, square = l1 * l1 + l2 * l2;
+    wide_mask beyond = w_greater(square, stick * stick);
+    if (w_any(w_and(beyond, bears))) NAMED(slide)(row, v1, v2, stick, beyond, &l1, &l2);
+    l1 = w_choose(bears, l1, w_set(0.0f));
+    l2 = w_choose(bears, l2, w_set(0.0f));
     wide d1 = l1 - row->tangent_impulse[0], d2 = l2 - row->tangent_impulse[1];
     wide3 impulse = w_add_scaled(w_scale(d1, t1), d2, t2);
     row->tangent_impulse[0] = l1;
