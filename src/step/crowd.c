@@ -1,19 +1,21 @@
 // crowd.c - see crowd.h. n bodies born in one point have n (n - 1) / 2 pairs: a mistake of the host that would take all
 // memory and minutes of time. A body is crowded when it has more than MOST pairs with dynamic bodies. Of the pairs of
-// two crowded bodies, each keeps its MOST deepest, and one that either of them keeps is made. So a body that carries a
+// two crowded bodies, each keeps its KEPT deepest, and one that either of them keeps is made. So a body that carries a
 // thousand others, which are not crowded, keeps them all.
 //
 // How deep: by how much the boxes of the two shapes overlap. Among equals, as in a point, those that were created next
 // to each other come first: each body then keeps others than its neighbour, and nobody has all.
 #include "step/crowd.h"
 
+#include "step/buried.h"
 #include "world/pair_list.h"
 #include "world/proxies.h"
 
 #include <string.h>
 
-// with no more contacts each, two bodies have colours enough for a contact between them
-enum { MOST = FE__PAIR_COLOURS / 2 };
+// With MOST contacts each, two bodies have colours enough for one between them. Who keeps KEPT is kept by as many
+// others, and has MOST together: so a crowd finds colours too.
+enum { MOST = FE__PAIR_COLOURS / 2, KEPT = MOST / 2 };
 
 static int32_t counts(const fe_world *w, const fe__candidate *c)
 {
@@ -27,6 +29,13 @@ static fe__body *body_of(const fe_world *w, int32_t shape) { return w->bodies + 
 // fe__body.coming_contacts: so many candidates; of a crowded body ~place in the list of those
 static int32_t is_crowded(const fe__body *body) { return body->coming_contacts < 0; }
 
+// Whose shape is buried is crowded, however few of those that it meets were found
+static int32_t is_among_many(const fe__step *step, const fe__body *body, int32_t shape)
+{
+    const fe__step_scratch *s = step->scratch;
+    return body->coming_contacts + body->contact_count > MOST || (s->buried_count && s->is_buried[shape]);
+}
+
 static int32_t any_crowd(const fe__step *step)
 {
     const fe_world *w = step->world;
@@ -35,8 +44,8 @@ static int32_t any_crowd(const fe__step *step)
         const fe__candidate *c = step->scratch->candidates + i;
         if (!counts(w, c)) continue;
         fe__body *a = body_of(w, c->shape_a), *b = body_of(w, c->shape_b);
-        any |= ++a->coming_contacts + a->contact_count > MOST;
-        any |= ++b->coming_contacts + b->contact_count > MOST;
+        ++a->coming_contacts, ++b->coming_contacts;
+        any |= is_among_many(step, a, c->shape_a) || is_among_many(step, b, c->shape_b);
     }
     return any;
 }
@@ -55,9 +64,9 @@ static int32_t list_crowded(const fe__step *step)
     int32_t count = 0;
     for (int32_t i = 0; i < 2 * step->scratch->candidate_count; ++i) {
         const fe__candidate *c = step->scratch->candidates + i / 2;
-        fe__body *body = body_of(w, i % 2 ? c->shape_b : c->shape_a);
-        if (is_crowded(body) || body->type != FE_BODY_DYNAMIC || body->coming_contacts + body->contact_count <= MOST)
-            continue;
+        int32_t shape = i % 2 ? c->shape_b : c->shape_a;
+        fe__body *body = body_of(w, shape);
+        if (is_crowded(body) || body->type != FE_BODY_DYNAMIC || !is_among_many(step, body, shape)) continue;
         body->coming_contacts = ~count++;
     }
     return count;
@@ -67,7 +76,7 @@ static int32_t list_crowded(const fe__step *step)
 // How many more pairs with crowded bodies it may have
 static int32_t room_of(const fe_world *w, const fe__body *body)
 {
-    int32_t index = (int32_t)(body - w->bodies), room = MOST;
+    int32_t index = (int32_t)(body - w->bodies), room = KEPT;
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(w, pair, index)) {
         const fe__pair *p = w->pairs + pair;
         room -= is_crowded(w->bodies + (p->body_a == index ? p->body_b : p->body_a));
@@ -142,7 +151,7 @@ static void offer(const fe__step *step, const fe__body *body, fe__favourite item
 {
     fe__step_scratch *s = step->scratch;
     fe__crowded *place = s->crowd + ~body->coming_contacts;
-    fe__favourite *heap = s->favourites + (int64_t)MOST * ~body->coming_contacts;
+    fe__favourite *heap = s->favourites + (int64_t)KEPT * ~body->coming_contacts;
     if (place->count < place->room)
         rise(step, heap, place->count++, item);
     else if (place->room && is_less(step, heap[0], item))
@@ -179,7 +188,7 @@ static void leave_out(const fe__step *step, int32_t crowded)
         if (!is_in_crowd(w, c + i)) c[i].shape_a = ~c[i].shape_a;
     for (int32_t k = 0; k < crowded; ++k) {
         for (int32_t i = 0; i < s->crowd[k].count; ++i) {
-            fe__candidate *kept = c + s->favourites[(int64_t)MOST * k + i].candidate;
+            fe__candidate *kept = c + s->favourites[(int64_t)KEPT * k + i].candidate;
             if (kept->shape_a >= 0) kept->shape_a = ~kept->shape_a;
         }
     }
@@ -202,7 +211,7 @@ int32_t fe__thin_crowds(fe__step *step)
     if (any_crowd(step)) {
         int32_t crowded = list_crowded(step);
         is_done = FE_RESERVE(memory, s->crowd, s->crowd_capacity, crowded) &&
-                  FE_RESERVE(memory, s->favourites, s->favourite_capacity, (int64_t)MOST * crowded) &&
+                  FE_RESERVE(memory, s->favourites, s->favourite_capacity, (int64_t)KEPT * crowded) &&
                   FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_capacity);
         for (int32_t k = 0; k < crowded && is_done; ++k) s->crowd[k] = (fe__crowded){.shape = -1};
         if (is_done) {

@@ -5,6 +5,7 @@
 // workers nor the trees show. Nothing of the world is changed before all memory that the step can need is reserved.
 #include "step/pairs_stage.h"
 
+#include "step/buried.h"
 #include "step/crowd.h"
 #include "step/due.h"
 #include "step/reserve.h"
@@ -19,6 +20,7 @@ enum {
     SHAPES_IN_BLOCK = 32,
     CANDIDATES_IN_CHUNK = 64,
     WORD_BITS = 32,
+    MANY = 1024,  // boxes that one meets: from here on the search asks who is buried
     MEETINGS = 64 // that wait for what they read: enough to hide the memory's latency, few enough to stay in the cache
 };
 
@@ -29,6 +31,8 @@ typedef struct search {
     fe__step_scratch *scratch;
     fe__candidate_chunk *chunk;
     int32_t shape;
+    int32_t visits;       // boxes that it met in the moving tree
+    int32_t meets_buried; // 1: it reports those with a lower index, too, for they do not search
     int32_t waiting;
     fe__candidate met[MEETINGS]; // `shape` then, and the other
 } search;
@@ -62,15 +66,36 @@ static void judge_meetings(search *s)
     s->waiting = 0;
 }
 
-// of two moved shapes the one with the lower index reports
-static int32_t found(void *context, int32_t other)
+static int32_t wait_for(search *s, int32_t other)
 {
-    search *s = context;
-    if (other <= s->shape && has_moved(s->scratch, other)) return 1;
     fe__pair_set_fetch(&s->world->pair_set, s->shape, other);
     s->met[s->waiting++] = (fe__candidate){s->shape, other};
     if (s->waiting == MEETINGS) judge_meetings(s);
     return 1;
+}
+
+// of two moved shapes the one with the lower index reports
+static int32_t found(void *context, int32_t other)
+{
+    search *s = context;
+    if (other <= s->shape && has_moved(s->scratch, other) && !(s->meets_buried && s->scratch->is_buried[other]))
+        return 1;
+    return wait_for(s, other);
+}
+
+// Who meets very many may be buried: all that was found will be searched anew
+static int32_t found_of_few(void *context, int32_t other)
+{
+    search *s = context;
+    if (++s->visits <= MANY) return found(context, other);
+    atomic_store_explicit(&s->scratch->is_crowd, 1, memory_order_relaxed);
+    return 0;
+}
+
+static int32_t found_of_buried(void *context, int32_t other)
+{
+    search *s = context;
+    return !s->scratch->is_buried[other] || !has_moved(s->scratch, other) || wait_for(s, other);
 }
 
 static int32_t found_by_plane(void *context, int32_t other)
@@ -88,34 +113,79 @@ static void search_plane(search *s)
     fe__tree_query(&s->world->moving_tree, &all, found_by_plane, s);
 }
 
-static void search_tree(search *s)
+static int32_t is_static(const search *s)
+{
+    return s->world->bodies[s->world->shapes[s->shape].body].type == FE_BODY_STATIC;
+}
+
+// What stands still: of one that moves
+static void search_still(search *s)
 {
     const fe_world *w = s->world;
-    int32_t is_static = w->bodies[w->shapes[s->shape].body].type == FE_BODY_STATIC;
-    const fe__tree *own = is_static ? &w->static_tree : &w->moving_tree;
-    fe__tree_query_proxy(&w->moving_tree, own, s->shape, found, s);
-    if (is_static) return;
-    fe__tree_query_proxy(&w->static_tree, own, s->shape, found, s);
+    fe__tree_query_proxy(&w->static_tree, &w->moving_tree, s->shape, found, s);
     fe__bounds box;
-    if (w->plane_count) fe__tree_get(own, s->shape, &box);
+    if (w->plane_count) fe__tree_get(&w->moving_tree, s->shape, &box);
     for (int32_t i = 0; i < w->plane_count; ++i) {
         if (fe__plane_comes_near(w, w->planes[i], &box)) found(s, w->planes[i]);
     }
 }
 
+static void search_tree(search *s, fe__tree_visit visit)
+{
+    const fe_world *w = s->world;
+    int32_t is_still = is_static(s);
+    fe__tree_query_proxy(&w->moving_tree, is_still ? &w->static_tree : &w->moving_tree, s->shape, visit, s);
+    if (!is_still) search_still(s);
+}
+
+static int32_t touches_nothing(const fe__shape *shape) { return (!shape->layer || !shape->mask) && shape->group <= 0; }
+
 static void search_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    search s = {step->world, step->scratch, step->scratch->chunks + worker, 0, 0, {{0}}};
+    search s = {step->world, step->scratch, step->scratch->chunks + worker, 0, 0, 0, 0, {{0}}};
+    if (atomic_load_explicit(&s.scratch->is_crowd, memory_order_relaxed)) return;
     for (int32_t i = first; i < end; ++i) {
-        s.shape = step->world->moved[i];
+        s.shape = step->world->moved[i], s.visits = 0;
         const fe__shape *shape = step->world->shapes + s.shape;
         uint32_t flags = shape->flags;
-        if ((!shape->layer || !shape->mask) && shape->group <= 0) continue; // touches nothing
+        if (touches_nothing(shape)) continue;
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
-        if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
+        if (flags & FE__SHAPE_IN_TREE) search_tree(&s, fe__may_be_buried(s.world, s.shape) ? found_of_few : found);
     }
     judge_meetings(&s);
+}
+
+// Of all shapes, those that moved and those that a buried one may have moved to
+static void search_around_buried(search *s)
+{
+    const fe__shape *shape = s->world->shapes + s->shape;
+    int32_t buried = s->scratch->is_buried[s->shape], moved = has_moved(s->scratch, s->shape);
+    s->meets_buried = 0;
+    if (!(shape->flags & (FE__SHAPE_IN_PLANES | FE__SHAPE_IN_TREE)) || touches_nothing(shape)) return;
+    if (shape->flags & FE__SHAPE_IN_PLANES) {
+        if (moved) search_plane(s);
+    } else if (buried) {
+        if (moved) search_still(s);
+    } else if (is_static(s)) {
+        if (moved) search_tree(s, found);
+    } else if (moved) {
+        search_still(s);
+        s->meets_buried = 1;
+        fe__tree_query_proxy(&s->world->moving_tree, &s->world->moving_tree, s->shape, found, s);
+    } else {
+        fe__tree_query_proxy(&s->world->moving_tree, &s->world->moving_tree, s->shape, found_of_buried, s);
+    }
+}
+
+static void search_block_around_buried(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    search s = {step->world, step->scratch, step->scratch->chunks + worker, 0, 0, 0, 0, {{0}}};
+    for (s.shape = first; s.shape < end; ++s.shape) {
+        search_around_buried(&s);
+        judge_meetings(&s);
+    }
 }
 
 static int32_t reserve_candidates(fe__step *step, int64_t room)
@@ -151,20 +221,44 @@ static void mark_moved(const fe__step *step, uint32_t bit)
 }
 
 // Beyond the capacity it only counts: with more room the search is done again
+static int32_t search_few(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    const fe_world *w = step->world;
+    do {
+        if (!reserve_candidates(step, atomic_load(&s->chunks_end))) return 0;
+        fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
+    } while (atomic_load(&s->chunks_end) > s->candidate_capacity && !atomic_load(&s->is_crowd));
+    if (!atomic_load(&s->is_crowd)) close_gaps(step);
+    return 1;
+}
+
+static int32_t search_crowd(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    const fe_world *w = step->world;
+    atomic_store(&s->chunks_end, 0);
+    if (!fe__find_buried(step)) return 0;
+    int64_t beside = (int64_t)FE__BESIDE * s->buried_count;
+    do {
+        if (!reserve_candidates(step, atomic_load(&s->chunks_end) + beside)) return 0;
+        fe__parallel_for(&w->workers, w->shape_ids.slot_count, SHAPES_IN_BLOCK, search_block_around_buried, step);
+    } while (atomic_load(&s->chunks_end) + beside > s->candidate_capacity);
+    close_gaps(step);
+    return fe__find_beside(step);
+}
+
 static int32_t search_all(fe__step *step)
 {
     fe__step_scratch *s = step->scratch;
     const fe_world *w = step->world;
-    int32_t is_done =
-        FE_RESERVE(step->world->step_memory, s->moved_bits, s->moved_words, w->shape_capacity / WORD_BITS + 1);
-    if (!is_done) return 0;
+    if (!FE_RESERVE(step->world->step_memory, s->moved_bits, s->moved_words, w->shape_capacity / WORD_BITS + 1))
+        return 0;
     mark_moved(step, 1);
-    do {
-        is_done = reserve_candidates(step, atomic_load(&s->chunks_end));
-        if (is_done) fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
-    } while (is_done && atomic_load(&s->chunks_end) > s->candidate_capacity);
+    s->buried_count = 0;
+    atomic_store(&s->is_crowd, 0);
+    int32_t is_done = search_few(step) && (!atomic_load(&s->is_crowd) || search_crowd(step));
     mark_moved(step, 0);
-    if (is_done) close_gaps(step);
     return is_done;
 }
 
@@ -220,4 +314,5 @@ void fe__find_new_pairs(fe__step *step)
     for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
     w->moved_count = 0;
     fe__keep_looking(step);
+    fe__buried_keep_looking(step);
 }

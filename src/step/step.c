@@ -4,6 +4,7 @@
 #include "continuous/continuous.h"
 #include "core/clock.h"
 #include "step/break_joints.h"
+#include "step/buried.h"
 #include "step/collide_stage.h"
 #include "step/events.h"
 #include "step/finalize.h"
@@ -45,7 +46,7 @@ static void count(fe__step *step)
     const fe__solver *s = &w->solver;
     fe_counters *c = &w->counters;
     c->recycled = atomic_load(&step->scratch->recycled);
-    c->contacts_left_out += step->scratch->left_out;
+    c->contacts_left_out += step->scratch->left_out + fe__buried_left_out(step->scratch);
     c->islands = s->island_count;
     c->rows = c->rows_whole = c->lanes = c->colours = 0;
     c->trees = step->dt > 0.0f ? atomic_load(&s->engaged) : 0;

@@ -16,6 +16,8 @@ void fe__step_scratch_free(fe__step_scratch *s, fe__memory *memory)
     FE_FREE(memory, s->moved_bits, s->moved_words);
     FE_FREE(memory, s->crowd, s->crowd_capacity);
     FE_FREE(memory, s->favourites, s->favourite_capacity);
+    FE_FREE(memory, s->is_buried, s->is_buried_capacity);
+    FE_FREE(memory, s->buried, s->buried_capacity);
     FE_FREE(memory, s->results, s->result_capacity);
     FE_FREE(memory, s->busy, s->busy_capacity);
     FE_FREE(memory, s->left, s->left_capacity);

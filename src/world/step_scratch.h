@@ -51,6 +51,11 @@ typedef struct fe__step_scratch {
     int32_t crowd_capacity, favourite_capacity, box_capacity;
     int32_t left_out; // candidates behind those that count
 
+    _Atomic int32_t is_crowd; // 1: the search met a shape with very many neighbours
+    uint8_t *is_buried;       // by shape, see step/buried.h
+    int32_t *buried;          // those shapes
+    int32_t is_buried_capacity, buried_capacity, buried_count;
+
     int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
     _Atomic int32_t due_count, waiting_count; // see step/due.c
     _Atomic int32_t apart_count;              // that the narrow phase found apart there
