@@ -240,7 +240,7 @@ test-many:
 FUZZ_SECONDS ?= 600
 COOKED_SECONDS ?= 120
 STATE_SECONDS ?= 120
-FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_pairs.o support/fuzz_terrain.o)
+FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_pairs.o support/fuzz_reads.o support/fuzz_terrain.o)
 
 $(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(FUZZ_OBJECTS) $(STATIC) -fsanitize=fuzzer $(LINK_FLAGS) -lm -o $@

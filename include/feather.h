@@ -1823,8 +1823,7 @@ FE_API void fe_save_options_init(fe_save_options *options, uint32_t struct_size)
 /// as much, and what it holds behind the size that is returned means nothing. It must not overlap `base`.
 /// @param out       at any alignment; NULL, 0 asks for the size only, in the time of a walk over the awake pairs
 /// @param capacity  bytes; with less than the size nothing is written
-/// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED with FE_SAVE_ASSETS for a world with compounds;
-///         FE_ERROR_DATA for a `base` that is no whole snapshot
+/// @return the size in bytes, or an error; FE_ERROR_DATA for a `base` that is no whole snapshot
 FE_API int64_t fe_world_save(const fe_world *world, const fe_save_options *options, void *out, int64_t capacity);
 
 /// What a restore may be told.

@@ -345,6 +345,16 @@ fe_result fe__check_material(const char *function, const fe_material *material)
     return FE_OK;
 }
 
+fe_result fe__check_materials(const char *function, const fe_material *materials, uint32_t stride, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        fe_material copy;
+        memcpy(&copy, fe__at_const(materials, stride, i), sizeof copy);
+        FE_TRY(fe__check_material(function, &copy));
+    }
+    return FE_OK;
+}
+
 fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
 {
     FE_READ_STRUCT(allocator, copy);

@@ -63,9 +63,7 @@ static fe_result read_heightfield(const char *function, const fe_heightfield_def
     FE_CHECK_ARRAY(full->materials, full->material_count);
     FE_CHECK_STRIDE(full->material_stride, sizeof *full->materials, sizeof *full->materials);
     FE_TRY(check_cells(function, "cell_materials", full->cell_materials, cells, full->material_count - 1));
-    for (int32_t i = 0; i < full->material_count; ++i)
-        FE_TRY(fe__check_material(function, fe__at_const(full->materials, full->material_stride, i)));
-    return FE_OK;
+    return fe__check_materials(function, full->materials, full->material_stride, full->material_count);
 }
 
 fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_asset)

@@ -103,9 +103,7 @@ static fe_result check_materials(const char *function, fe_mesh_def *def)
         return fe__fail(function, FE_ERROR_ARGUMENT, "triangle_materials[%d] is %d, must be in [0, %d]", (int)i,
                         def->triangle_materials[i], (int)(def->material_count - 1));
     }
-    for (int32_t i = 0; i < def->material_count; ++i)
-        FE_TRY(fe__check_material(function, fe__at_const(def->materials, def->material_stride, i)));
-    return FE_OK;
+    return fe__check_materials(function, def->materials, def->material_stride, def->material_count);
 }
 
 static fe_result read_mesh(const char *function, const fe_mesh_def *def, fe_mesh_def *full, fe__mesh_source *source)
@@ -261,7 +259,7 @@ fe_result fe_mesh_set_materials(fe_store *store, fe_asset mesh, const fe_materia
     FE_BEGIN_STORE(store);
     FE_CHECK_ARRAY(materials, count);
     FE_CHECK_STRIDE(stride, sizeof *materials, sizeof *materials);
-    for (int32_t i = 0; i < count; ++i) FE_TRY(fe__check_material(function, fe__at_const(materials, stride, i)));
+    FE_TRY(fe__check_materials(function, materials, stride, count));
     fe__store_lock(store);
     fe_result result = set_materials(function, store, mesh, materials, stride, count);
     fe__store_unlock(store);

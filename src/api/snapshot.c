@@ -9,6 +9,7 @@
 #include "state/restore.h"
 #include "state/write.h"
 #include "store/asset_bytes.h"
+#include "store/scaled_asset.h"
 #include "world/joints.h"
 #include "world/lifetime.h"
 #include "world/shapes.h"
@@ -76,12 +77,8 @@ int64_t fe_world_save(const fe_world *world, const fe_save_options *options, voi
     if (is_diff && !fe__snapshot_outline(&base, full.base, full.base_size))
         return fe__fail(function, base.result, "base: %s", base.sentence);
     fe__store_lock(world->store);
-    int32_t refused = with_assets && fe__snapshot_has_compounds(world);
-    int64_t size = refused ? 0 : save(world, with_assets, is_diff ? &base : NULL, out, capacity);
+    int64_t size = save(world, with_assets, is_diff ? &base : NULL, out, capacity);
     fe__store_unlock(world->store);
-    if (refused)
-        return fe__fail(function, FE_ERROR_UNSUPPORTED,
-                        "the world has compounds, whose contents no bytes hold: save it without FE_SAVE_ASSETS");
     return size;
 }
 
@@ -154,6 +151,41 @@ static fe_result make_assets(const char *function, fe_store *store, const fe__sn
     for (const unsigned char *bytes; (bytes = fe__next_asset_bytes(snapshot, &at, &size));)
         FE_TRY(make_asset(function, store, bytes, size, k));
     return FE_OK;
+}
+
+// Where a compound that was just made has a part with the content of an asset beside it, the two are one: an edit is
+// felt by both, as it was where they were saved. The compound is nobody's yet
+static fe_result share_part(fe_store *store, const known_assets *k, fe__compound_part *part)
+{
+    const fe__asset_key key = fe__asset_key_of(store, part->form.field);
+    const fe_vec3 scale = fe__store_asset(store, part->form.field)->scale;
+    for (int32_t i = 0; i < k->count; ++i) {
+        int32_t index = k->assets[i];
+        fe__scale_refusal refusal;
+        if (!fe__keys_are_same(k->keys[i], key) || index == fe__store_parent(store, part->form.field)->index) continue;
+        if (scale.x != 1.0f || scale.y != 1.0f || scale.z != 1.0f) {
+            fe_result made = fe__asset_scaled(store, index, scale, &index, &refusal);
+            if (made != FE_OK) return made;
+        }
+        fe__asset_retain(store, index);
+        fe__asset_release(store, part->form.field);
+        part->form = fe__asset_form(store, index);
+        return FE_OK;
+    }
+    return FE_OK;
+}
+
+static fe_result share_parts(const char *function, fe_store *store, const known_assets *k)
+{
+    fe_result result = FE_OK;
+    fe__store_lock(store);
+    for (int32_t i = 0; i < k->made_count; ++i) {
+        const fe__asset *a = fe__store_asset(store, fe__id_slot_of(k->made[i]));
+        for (int32_t p = 0; a->kind == FE__ASSET_COMPOUND && p < a->compound.count && result == FE_OK; ++p)
+            if (fe__form_has_asset(&a->compound.parts[p].form)) result = share_part(store, k, a->compound.parts + p);
+    }
+    fe__store_unlock(store);
+    return fe__report(function, result);
 }
 
 static void close_known(fe_world *world, known_assets *k, fe_result result)
@@ -242,6 +274,7 @@ static fe_result restore_opened(const char *function, fe_world *world, const fe_
     fe_result result = take_given(function, world->store, options, &known);
     fe__store_unlock(world->store);
     if (result == FE_OK) result = make_assets(function, world->store, snapshot, &known);
+    if (result == FE_OK) result = share_parts(function, world->store, &known);
     fe__build build = {.snapshot = snapshot, .keys = known.keys, .assets = known.assets, .asset_count = known.count};
     int32_t number = options->new_number ? world->number : snapshot->number;
     if (result == FE_OK) result = exchange(function, world, &build, number);

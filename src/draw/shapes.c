@@ -39,10 +39,10 @@ static int32_t look_at(fe__drawing *d, fe__shape_walk *walk)
 static inline void fetch_ahead(const fe_world *w, int32_t body, int32_t shape)
 {
     enum { BODIES_AHEAD = 6, SHAPES_AHEAD = 4 };
-    const fe__body *b = w->bodies + body + BODIES_AHEAD;
-    const fe__shape *s = w->shapes + shape + SHAPES_AHEAD;
-    if (body + BODIES_AHEAD < w->body_capacity) fe__fetch(&b->line, sizeof *b - (unsigned)offsetof(fe__body, line));
-    if (shape >= 0 && shape + SHAPES_AHEAD < w->shape_capacity) fe__fetch(s, sizeof *s);
+    const unsigned tail = sizeof *w->bodies - (unsigned)offsetof(fe__body, line);
+    if (body + BODIES_AHEAD < w->body_capacity) fe__fetch(&w->bodies[body + BODIES_AHEAD].line, tail);
+    if (shape >= 0 && shape + SHAPES_AHEAD < w->shape_capacity)
+        fe__fetch(w->shapes + shape + SHAPES_AHEAD, sizeof *w->shapes);
 }
 
 // Every body is met, drawn or not: the first of an island decides its colour

@@ -69,7 +69,8 @@ typedef struct fe__body {
     uint64_t serial;                              // of creation, never reused
     int32_t first_contact, contact_count;         // list of pairs, threaded through fe__pair.links
     int32_t static_pairs;                         // of them, those with a static body
-    int32_t coming_contacts;                      // while a step reserves: candidates with this body, else 0
+    int32_t coming_contacts;                      // while a step reserves: candidates with this body; while an island
+                                                  // gathers to fall asleep: where it stood among the awake. Else 0
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
     int32_t first_joint, last_joint, joint_total;

@@ -42,10 +42,13 @@ static int32_t stands(const fe__body *body)
     return 1;
 }
 
+// The solver multiplies by the quotients of both. Of shapes and of calls, no dynamic body has less; its inverse mass is
+// what its mass says, to the last bit
 static int32_t weighs(const fe__body *body)
 {
-    const float *i = body->inertia;
-    return body->mass > 0.0f && body->inverse_mass > 0.0f && i[0] > 0.0f && i[1] > 0.0f && i[2] > 0.0f;
+    const float least = FE_LEAST_INERTIA, *i = body->inertia;
+    return body->mass >= FE_LEAST_MASS && body->inverse_mass == 1.0f / body->mass && i[0] >= least && i[1] >= least &&
+           i[2] >= least;
 }
 
 static int32_t check_body(fe__build *b, const fe__body *body, int32_t slot)
@@ -304,20 +307,64 @@ static void add_use(fe__build *b, int32_t index, int32_t first_user)
     fe__asset_retain(w->store, index);
 }
 
-// Every shape that has it gets its form, once. `users` counts those
-static int32_t give_form(fe__build *b, int32_t index, int32_t first_user, int32_t *users)
+// A part has the record that its compound has, which may be another one of the same content
+static int32_t record_of(const fe_world *w, int32_t slot, int32_t index)
+{
+    const fe__shape *part = w->shapes + slot;
+    int32_t number = fe__part_of_serial(part->serial);
+    if (part->parent < 0 || w->shapes[part->parent].form.field == NO_ASSET) return index;
+    const fe__compound *compound = &fe__store_asset(w->store, w->shapes[part->parent].form.field)->compound;
+    int32_t has_asset = number < compound->count && fe__form_has_asset(&compound->parts[number].form);
+    return has_asset ? compound->parts[number].form.field : index;
+}
+
+// Every shape that has it gets its form, once. `users` counts those; out_apart: those that have another record
+static int32_t give_form(fe__build *b, int32_t index, int32_t first_user, int32_t *users, int32_t *out_apart)
 {
     fe_world *w = b->world;
-    const fe__form form = fe__asset_form(w->store, index);
+    *out_apart = 0;
     for (int32_t slot = first_user; slot >= 0; slot = w->shapes[slot].next_user) {
-        if (slot >= w->shape_ids.slot_count || !is_slot_used(&w->shape_ids, slot) ||
-            w->shapes[slot].form.field != NO_ASSET || !fe__forms_are_alike(&w->shapes[slot].form, &form) ||
-            --*users < 0)
+        int32_t is_there = slot < w->shape_ids.slot_count && is_slot_used(&w->shape_ids, slot) &&
+                           w->shapes[slot].form.field == NO_ASSET && --*users >= 0;
+        int32_t record = is_there ? record_of(w, slot, index) : index;
+        const fe__form form = fe__asset_form(w->store, record);
+        if (!is_there || !fe__forms_are_alike(&w->shapes[slot].form, &form))
             return fe__snapshot_refuse(b->snapshot, "assets: shape %d does not have that of %d", (int)slot,
                                        (int)first_user);
         w->shapes[slot].form = form;
+        *out_apart += record != index;
     }
     return 1;
+}
+
+// Each of the row's shapes to the users of its own record
+static int32_t add_uses_apart(fe__build *b, int32_t first_user, int32_t rows)
+{
+    fe_world *w = b->world;
+    for (int32_t slot = first_user, next; slot >= 0; slot = next) {
+        next = w->shapes[slot].next_user;
+        w->shapes[slot].next_user = -1;
+        if (!FE_RESERVE(fe__memory_of(b), w->uses, w->use_capacity, w->use_count + rows)) return fe__lack_memory(b);
+        fe__asset_use *known = fe__find_asset_use(w, w->shapes[slot].form.field);
+        if (known)
+            w->shapes[slot].next_user = known->first_user, known->first_user = slot;
+        else
+            add_use(b, w->shapes[slot].form.field, slot);
+    }
+    return 1;
+}
+
+static int32_t build_asset(fe__build *b, const fe__asset_row *row, int32_t rows, int32_t *users)
+{
+    fe_world *w = b->world;
+    int32_t index, apart;
+    if (!resolve(b, row, &index)) return 0;
+    fe__asset_retain(w->store, index); // what was just made for it goes again, if it has no use
+    int32_t is_given = give_form(b, index, row->shape, users, &apart);
+    if (is_given && apart) is_given = add_uses_apart(b, row->shape, rows);
+    if (is_given && !apart) add_use(b, index, row->shape);
+    fe__asset_release(w->store, index);
+    return is_given;
 }
 
 int32_t fe__build_assets(fe__build *b)
@@ -328,16 +375,11 @@ int32_t fe__build_assets(fe__build *b)
     for (int32_t slot = 0; slot < w->shape_ids.slot_count; ++slot)
         users += is_slot_used(&w->shape_ids, slot) && fe__form_has_asset(&w->shapes[slot].form);
     if (!FE_RESERVE(fe__memory_of(b), w->uses, w->use_capacity, rows)) return fe__lack_memory(b);
-    for (int32_t i = 0; i < rows; ++i) {
+    // compounds first: they tell what their parts have
+    for (int32_t i = 0; i < 2 * rows; ++i) {
         fe__asset_row row;
-        int32_t index;
-        fe__take_row(b->snapshot, FE__TABLE_ASSETS, i, &row);
-        if (!resolve(b, &row, &index)) return 0;
-        fe__asset_retain(w->store, index); // what was just made for it goes again, if it has no use
-        int32_t is_given = give_form(b, index, row.shape, &users);
-        if (is_given) add_use(b, index, row.shape);
-        fe__asset_release(w->store, index);
-        if (!is_given) return 0;
+        fe__take_row(b->snapshot, FE__TABLE_ASSETS, i % rows, &row);
+        if ((row.kind == FE__ASSET_COMPOUND) == (i < rows) && !build_asset(b, &row, rows + 1, &users)) return 0;
     }
     return users == 0 || fe__snapshot_refuse(b->snapshot, "assets: %d shapes have none", (int)users);
 }

@@ -110,14 +110,7 @@ static const fe__asset *asset_to_write(const fe_world *world, int32_t place)
     const fe__asset *asset = fe__store_parent(world->store, world->uses[place].asset);
     for (int32_t i = 0; i < place; ++i)
         if (fe__store_parent(world->store, world->uses[i].asset) == asset) return NULL;
-    return asset->kind == FE__ASSET_COMPOUND ? NULL : asset;
-}
-
-int32_t fe__snapshot_has_compounds(const fe_world *world)
-{
-    for (int32_t i = 0; i < world->use_count; ++i)
-        if (fe__store_asset(world->store, world->uses[i].asset)->kind == FE__ASSET_COMPOUND) return 1;
-    return 0;
+    return asset;
 }
 
 static int64_t assets_size(const fe_world *world)
@@ -136,7 +129,6 @@ static void write_assets(writer *w, const fe_world *world)
     for (int32_t row = 0, shape = -1; row < world->use_count; ++row) {
         shape = fe__next_asset_user(world, shape);
         const fe__asset *asset = fe__store_parent(world->store, world->shapes[shape].form.field);
-        if (asset->kind == FE__ASSET_COMPOUND) continue;
         int32_t is_first = 1;
         for (int32_t i = 0, other = -1; i < row && is_first; ++i) {
             other = fe__next_asset_user(world, other);

@@ -3,9 +3,8 @@
 #define FE_STATE_WRITE_H
 #include "state/format.h"
 
-// Under the store's lock. with_assets: the contents of assets, too; a compound's cannot be written
+// Under the store's lock. with_assets: the contents of assets, too
 int64_t fe__snapshot_size(const fe_world *world, int32_t with_assets);
 void fe__snapshot_write(const fe_world *world, int32_t with_assets, unsigned char *out); // of that size
-int32_t fe__snapshot_has_compounds(const fe_world *world);
 
 #endif

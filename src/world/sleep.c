@@ -151,26 +151,42 @@ void fe__body_fall_asleep(fe_world *world, int32_t index)
 // An awake body joins the island that gathers
 static void gather(fe_world *world, int32_t body, int32_t *low)
 {
-    if (body >= 0 && world->bodies[body].awake_index >= 0 && world->bodies[body].awake_index < *low)
-        swap_places(world, world->bodies[body].awake_index, --*low);
+    if (body < 0 || world->bodies[body].awake_index < 0 || world->bodies[body].awake_index >= *low) return;
+    world->bodies[body].coming_contacts = world->bodies[body].awake_index;
+    swap_places(world, world->bodies[body].awake_index, --*low);
 }
 
-// The island gathers at the end of the list, which grows downwards as its queue
+// Gathers the island of an awake body at the end of the list, which grows downwards as its queue: from *low on. 0: one
+// of those gathered may not sleep
+static int32_t gather_island(fe_world *world, int32_t body, int32_t *low)
+{
+    int32_t end = *low;
+    gather(world, body, low);
+    for (int32_t next = end - 1; next >= *low; --next) {
+        int32_t at = world->awake_bodies[next];
+        if (!(world->bodies[at].flags & FE__BODY_SLEEP_ALLOWED)) return 0;
+        if (is_driven(world, at, *low)) return 0;
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at))
+            gather(world, dynamic_neighbour(world, pair, at), low);
+        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
+            gather(world, joined_dynamic(world, joint, at), low);
+    }
+    return 1;
+}
+
+// The order of the list shows in a snapshot: where nobody falls asleep it is as it was
 fe_result fe__put_to_sleep(fe_world *world, int32_t body)
 {
-    int32_t end = world->awake_body_count, low = end;
+    int32_t low = world->awake_body_count;
     if (world->bodies[body].awake_index < 0) return FE_OK;
-    world->solver.graph_changed = 1; // also when nobody falls asleep: islands have numbers in the order of the list
-    swap_places(world, world->bodies[body].awake_index, --low);
-    for (int32_t next = end - 1; next >= low; --next) {
-        int32_t at = world->awake_bodies[next];
-        if (!(world->bodies[at].flags & FE__BODY_SLEEP_ALLOWED)) return FE_ERROR_STATE;
-        if (is_driven(world, at, low)) return FE_ERROR_STATE;
-        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at))
-            gather(world, dynamic_neighbour(world, pair, at), &low);
-        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
-            gather(world, joined_dynamic(world, joint, at), &low);
+    int32_t may_sleep = gather_island(world, body, &low);
+    for (int32_t place = low; place < world->awake_body_count; ++place) {
+        fe__body *gathered = world->bodies + world->awake_bodies[place];
+        if (!may_sleep) swap_places(world, place, gathered->coming_contacts);
+        gathered->coming_contacts = 0;
     }
+    if (!may_sleep) return FE_ERROR_STATE;
+    world->solver.graph_changed = 1;
     while (world->awake_body_count > low) fe__body_fall_asleep(world, world->awake_bodies[world->awake_body_count - 1]);
     return FE_OK;
 }

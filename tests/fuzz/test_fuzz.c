@@ -4,6 +4,8 @@
 #include "feather.h"
 #include "support/fuzz.h"
 
+#include <stdlib.h>
+
 #ifdef FE_SANITIZED
 enum { STREAMS = 60 };
 #else
@@ -60,10 +62,33 @@ static void no_stream_of_wild_values_crashes(void **state)
     }
 }
 
-int main(void)
+static int64_t refusals = 3000; // the first argument
+
+// Every value that a call may refuse: streams go on until so many calls were refused, each of which left the snapshot
+// as it was
+static void refused_calls_leave_every_byte(void **state)
 {
+    (void)state;
+    static uint8_t bytes[STREAM_BYTES];
+    int64_t refused = 0;
+    for (uint32_t seed = 0; refused < refusals; ++seed) {
+        fill(bytes, 4 * STREAMS + seed);
+        const fuzz_setting setting = {.workers = 1 + (int32_t)seed % 3,
+                                      .simd = FE_SIMD_AUTO,
+                                      .is_wild = (int32_t)(seed % 2),
+                                      .refused = &refused};
+        fuzz_run(bytes, STREAM_BYTES, &setting);
+    }
+    print_message("%lld calls refused\n", (long long)refused);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1) refusals = strtoll(argv[1], NULL, 10);
+    print_message("seeds from 0\n");
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_stream_of_calls_breaks_a_world),
                                        cmocka_unit_test(failed_steps_leave_no_trace),
+                                       cmocka_unit_test(refused_calls_leave_every_byte),
                                        cmocka_unit_test(no_stream_of_wild_values_crashes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,8 @@
 #include "state/table.h"
 #include "support/play.h"
 
+#include <math.h>
+
 enum { NUMBER = 7 };
 
 // With the contents of its assets, where it may be
@@ -283,6 +285,122 @@ static void a_tree_has_no_room_for_millions(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// ---- floats of any size ---------------------------------------------------------------------------------------------
+// A table that has rows in the snapshot, and one of its fields that is a float or a double
+static const fe__field *pick_number(bytes b, uint32_t *seed, fe__table_number *out_table)
+{
+    for (;;) {
+        const fe__table_number table = (fe__table_number)(draw(seed) % FE__TABLES);
+        const fe__field *field = fe__tables[table].fields + draw(seed) % (uint32_t)fe__tables[table].field_count;
+        if (field->kind != FE__F32 && field->kind != FE__F64) continue;
+        if (take(b.data + section_at(b, (int32_t)table) + SECTION, 8) == 0) continue;
+        *out_table = table;
+        return field;
+    }
+}
+
+// Where the field stands in a row: behind all fields before it
+static int64_t place_in_row(fe__table_number table, const fe__field *field)
+{
+    int64_t at = 0;
+    for (const fe__field *f = fe__tables[table].fields; f < field; ++f) at += fe__field_size(f);
+    return at;
+}
+
+// Every order of magnitude is as likely, those of denormals and zero too
+static double any_number(uint32_t *seed, int32_t least, int32_t most)
+{
+    double x =
+        ldexp(1.0 + (double)(draw(seed) % 4096) / 4096.0, least + (int32_t)(draw(seed) % (uint32_t)(most - least)));
+    return draw(seed) % 32 == 0 ? 0.0 : draw(seed) % 2 ? x : -x;
+}
+
+static void alter_number(bytes b, uint32_t *seed, char *told, size_t room)
+{
+    fe__table_number table;
+    const fe__field *field = pick_number(b, seed, &table);
+    uint64_t rows = take(b.data + section_at(b, (int32_t)table) + SECTION, 8);
+    int32_t row = (int32_t)(draw(seed) % rows), element = (int32_t)(draw(seed) % field->count);
+    unsigned char *at =
+        row_of(b, table, row) + place_in_row(table, field) + element * (int32_t)fe__kind_size(field->kind);
+    if (field->kind == FE__F64) {
+        double x = any_number(seed, -300, 300);
+        memcpy(at, &x, sizeof x);
+        snprintf(told, room, "%s %d: %s[%d] = %g", fe__tables[table].name, (int)row, field->name, (int)element, x);
+        return;
+    }
+    float x = (float)any_number(seed, -149, 127);
+    memcpy(at, &x, sizeof x);
+    snprintf(told, room, "%s %d: %s[%d] = %g", fe__tables[table].name, (int)row, field->name, (int)element, (double)x);
+}
+
+static int32_t are_finite(const float *numbers, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i)
+        if (!isfinite(numbers[i])) return 0;
+    return 1;
+}
+
+// What a caller reads of a world: the sentence of what is no number, or NULL
+static const char *no_number_in(const fe_world *world)
+{
+    enum { MOST = 256 };
+    fe_body bodies[MOST];
+    fe_joint joints[MOST];
+    fe_contact contacts[16];
+    int32_t count = fe_world_get_bodies(world, bodies, MOST);
+    for (int32_t i = 0; i < count && i < MOST; ++i) {
+        fe_vec3 v = body_linear_velocity(world, bodies[i]), w = body_angular_velocity(world, bodies[i]);
+        fe_transform t = body_transform(world, bodies[i]);
+        if (!are_finite(&v.x, 3) || !are_finite(&w.x, 3) || !are_finite(&t.rotation.x, 4)) return "a body's motion";
+        if (!isfinite(t.position.x) || !isfinite(t.position.y) || !isfinite(t.position.z)) return "a body's place";
+        int32_t touching = fe_body_get_contacts(world, bodies[i], contacts, sizeof *contacts, 16);
+        for (int32_t k = 0; k < touching && k < 16; ++k)
+            if (!are_finite(&contacts[k].normal.x, 3) || !are_finite(&contacts[k].friction_impulse.x, 3))
+                return "a contact";
+    }
+    count = fe_world_get_joints(world, joints, MOST);
+    for (int32_t i = 0; i < count && i < MOST; ++i) {
+        fe_vec3 force, torque;
+        FE_TRUE(fe_joint_get_reaction(world, joints[i], &force, &torque) == FE_OK);
+        if (!are_finite(&force.x, 3) || !are_finite(&torque.x, 3)) return "a joint's reaction";
+    }
+    return NULL;
+}
+
+// A number of any size in one place is refused, or the world steps, and all that is read of it and all that it saves
+// are numbers that it takes itself
+static void a_number_of_any_size_is_refused_or_sound(const script *s, int32_t steps, int32_t count, uint32_t *seed)
+{
+    fe_world *world = make_scene(s, steps);
+    bytes whole = save(world), back = save_whole(world), b = {malloc((size_t)whole.size), whole.size};
+    int32_t accepted = 0, broken = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        char told[160];
+        const char *wrong = NULL;
+        memcpy(b.data, whole.data, (size_t)whole.size);
+        alter_number(b, seed, told, sizeof told);
+        mend(b);
+        if (fe_world_restore(world, NULL, b.data, b.size) < 0) continue;
+        accepted += 1;
+        for (int32_t k = 0; k < 3 && !wrong; ++k) {
+            FE_TRUE(fe_world_step(world, k == 1 ? 0.0f : 1.0f / 60.0f) == FE_OK);
+            wrong = no_number_in(world);
+        }
+        bytes again = save(world);
+        fe_result checked = fe_snapshot_check(again.data, again.size, NULL);
+        free(again.data);
+        if (wrong || checked != FE_OK) {
+            if (broken++ < 20) print_error("%s: %s: %s\n", s->name, told, wrong ? wrong : fe_last_error());
+        }
+        FE_TRUE(fe_world_restore(world, NULL, back.data, back.size) == FE_OK);
+    }
+    print_message("%s: %d of %d accepted, %d of them not sound\n", s->name, (int)accepted, (int)count, (int)broken);
+    free(back.data), free(b.data), free(whole.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+    assert_int_equal(broken, 0);
+}
+
 static void random_numbers_are_refused_or_live_in(const script *s, int32_t steps, int32_t rounds)
 {
     fe_world *world = make_scene(s, steps);
@@ -312,6 +430,21 @@ static int32_t rounds(void)
     return long_run ? atoi(long_run) : 150;
 }
 
+static void numbers_of_any_size_are_refused_or_sound(void **state)
+{
+    (void)state;
+    static const struct {
+        const script *script;
+        int32_t steps;
+    } cases[] = {{&script_brief, 60},  {&script_joints, 40}, {&script_terrain, 60},   {&script_solids, 60},
+                 {&script_meshes, 60}, {&script_scales, 90}, {&script_compounds, 67}, {&script_fast, 30}};
+    const char *given = getenv("FE_STATE_SEED");
+    uint32_t seed = given ? (uint32_t)strtoul(given, NULL, 0) : 20261128u;
+    print_message("seed %u\n", (unsigned)seed);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+        a_number_of_any_size_is_refused_or_sound(cases[i].script, cases[i].steps, 2 * rounds(), &seed);
+}
+
 #define CASE(name, steps)                                                       \
     static void name##_under_random_numbers(void **state)                       \
     {                                                                           \
@@ -339,6 +472,7 @@ int main(void)
         cmocka_unit_test(a_speed_beyond_all_bounds_is_refused),
         cmocka_unit_test(nodes_that_nobody_meets_are_refused),
         cmocka_unit_test(a_tree_has_no_room_for_millions),
+        cmocka_unit_test(numbers_of_any_size_are_refused_or_sound),
         cmocka_unit_test(brief_under_random_numbers),
         cmocka_unit_test(crowd_under_random_numbers),
         cmocka_unit_test(terrain_under_random_numbers),

@@ -224,6 +224,99 @@ static void an_edited_field_is_another_asset(void **state)
     destroy(world);
 }
 
+// ---- compounds inside ----------------------------------------------------------------------------------------------
+static bytes save_with_assets(const fe_world *world)
+{
+    fe_save_options options;
+    fe_save_options_init(&options, sizeof options);
+    options.flags = FE_SAVE_ASSETS;
+    return save_by(world, &options);
+}
+
+// At random moments, where no asset is: the loaded world goes where the saved one goes, and holds as much
+static void compounds_are_saved_with_their_contents(void **state)
+{
+    (void)state;
+    enum { DRAWS = 10, STEPS = 20 };
+    uint32_t seed = 20261128;
+    print_message("seed %u\n", (unsigned)seed);
+    for (int32_t i = 0; i < DRAWS; ++i) {
+        seed = seed * 1664525u + 1013904223u;
+        fe_world *world = make(&script_compounds, 1 + (int32_t)(seed >> 8) % 120), *loaded = NULL;
+        bytes b = save_with_assets(world);
+        FE_TRUE(fe_world_load(NULL, NULL, b.data, b.size, &loaded) == FE_OK);
+        bytes again = save_with_assets(loaded);
+        FE_TRUE(again.size <= b.size); // two assets of one content have become one
+        for (int32_t k = 0; k < STEPS; ++k) {
+            FE_TRUE(fe_world_step(world, 1.0f / 60.0f) == FE_OK && fe_world_step(loaded, 1.0f / 60.0f) == FE_OK);
+            FE_TRUE(hash_of(loaded) == hash_of(world));
+        }
+        FE_TRUE(fe_world_restore(world, NULL, b.data, b.size) == FE_OK); // where all assets are
+        FE_TRUE(fe_world_restore(loaded, NULL, again.data, again.size) == FE_OK && hash_of(loaded) == hash_of(world));
+        free(b.data), free(again.data);
+        destroy(world), destroy(loaded);
+    }
+}
+
+static double height_at(const fe_world *world, double x)
+{
+    const fe_dvec3 from = {x, 10.0, 0.5}, down = {0.0, -20.0, 0.0};
+    fe_hit hit;
+    assert_int_equal(fe_world_raycast(world, &from, &down, NULL, &hit), 1);
+    return hit.point.y;
+}
+
+// A heightfield that is a shape's, and a compound's part 10 m beside it, twice. The loaded world's is one again: its
+// new heights are felt at both places
+static void an_edit_is_felt_by_a_loaded_compounds_parts(void **state)
+{
+    (void)state;
+    float heights[4] = {0};
+    const float raised[4] = {2.0f, 2.0f, 2.0f, 2.0f};
+    fe_heightfield_def d;
+    fe_heightfield_def_init(&d, sizeof d);
+    d.rows = d.columns = 2, d.heights = heights;
+    fe_world *world = NULL, *loaded = NULL;
+    fe_store *store = NULL;
+    fe_asset field, compound;
+    fe_body body;
+    fe_shape shape;
+    fe_geometry g;
+    fe_compound_part parts[2];
+    FE_TRUE(fe_world_create(NULL, &world) == FE_OK && fe_world_get_store(world, &store) == FE_OK);
+    FE_TRUE(fe_heightfield_create(store, &d, &field) == FE_OK);
+    for (int32_t i = 0; i < 2; ++i) {
+        fe_compound_part_init(parts + i, sizeof *parts);
+        fe_geometry_heightfield(&parts[i].geometry, field);
+        parts[i].frame.position.x = 10.0f * (float)(i + 1);
+    }
+    FE_TRUE(fe_compound_create(store, parts, sizeof *parts, 2, &compound) == FE_OK);
+    fe_body_def def;
+    fe_body_def_init(&def, sizeof def);
+    def.type = FE_BODY_STATIC;
+    FE_TRUE(fe_body_create(world, &def, &body) == FE_OK);
+    fe_geometry_heightfield(&g, field);
+    FE_TRUE(fe_shape_create(world, body, NULL, &g, &shape) == FE_OK);
+    fe_geometry_compound(&g, compound);
+    FE_TRUE(fe_shape_create(world, body, NULL, &g, &shape) == FE_OK);
+
+    bytes b = save_with_assets(world);
+    FE_TRUE(fe_world_load(NULL, NULL, b.data, b.size, &loaded) == FE_OK);
+    FE_TRUE(fe_world_get_store(loaded, &store) == FE_OK);
+    fe_hit hit;
+    const fe_dvec3 from = {0.5, 10.0, 0.5}, down = {0.0, -20.0, 0.0};
+    assert_int_equal(fe_world_raycast(loaded, &from, &down, NULL, &hit), 1);
+    fe_geometry_init(&g, sizeof g);
+    FE_TRUE(fe_shape_get_geometry(loaded, hit.shape, &g) == FE_OK);
+    FE_TRUE(fe_heightfield_set_heights(store, g.asset, 0, 0, 2, 2, raised) == FE_OK);
+    for (int32_t i = 0; i < 3; ++i) {
+        FE_NEAR(height_at(world, 0.5 + 10.0 * i), 0.0, 1e-6);
+        FE_NEAR(height_at(loaded, 0.5 + 10.0 * i), 2.0, 1e-6);
+    }
+    free(b.data);
+    destroy(world), destroy(loaded);
+}
+
 // ---- memory ---------------------------------------------------------------------------------------------------------
 static fe_world *world_of(counting *c, bytes from)
 {
@@ -278,6 +371,8 @@ int main(void)
         cmocka_unit_test(saving_says_how_large_it_is_and_writes_no_less),
         cmocka_unit_test(restoring_refuses_what_is_no_snapshot),
         cmocka_unit_test(a_snapshot_says_what_is_in_it),
+        cmocka_unit_test(compounds_are_saved_with_their_contents),
+        cmocka_unit_test(an_edit_is_felt_by_a_loaded_compounds_parts),
         cmocka_unit_test(handles_are_the_saved_worlds_unless_a_new_number_is_asked_for),
         cmocka_unit_test(a_world_with_a_filter_is_restored_where_one_is),
         cmocka_unit_test(assets_go_by_their_keys_or_inside),

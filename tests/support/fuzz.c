@@ -1,7 +1,8 @@
 // fuzz.c - see fuzz.h: the stream, the checks, and the loop over calls. The calls themselves are in fuzz_calls.c.
 //
-// What must always hold: nothing crashes; a call that returns an error has changed nothing; an accepted call leaves
-// numbers only; a call that found no memory can be repeated; the fingerprint can be computed.
+// What must always hold: nothing crashes; a call that returns an error, or only reads, leaves every byte of a snapshot;
+// an accepted call leaves numbers only; a call that found no memory can be repeated; the fingerprint can be computed;
+// what the world saves at the end is accepted.
 #include "core/aligned.h"
 #include "support/fuzz_state.h"
 
@@ -142,6 +143,29 @@ static uint64_t world_hash(const fuzz *f)
     return words[0] | (uint64_t)words[1] << 32;
 }
 
+static void take_snapshot(const fuzz *f, fuzz_snapshot *s)
+{
+    s->size = fe_world_save(f->world, NULL, NULL, 0);
+    if (s->size > s->capacity) {
+        free(s->bytes);
+        s->bytes = malloc((size_t)(s->capacity = 2 * s->size));
+    }
+    if (!s->bytes || fe_world_save(f->world, NULL, s->bytes, s->capacity) != s->size) fuzz_fail(f, "no snapshot");
+}
+
+// With the sentence of where the two differ
+static void check_unchanged(fuzz *f, const char *what)
+{
+    const fuzz_snapshot *a = &f->before, *b = &f->after;
+    take_snapshot(f, &f->after);
+    if (a->size == b->size && memcmp(a->bytes, b->bytes, (size_t)a->size) == 0) return;
+    fe_difference d;
+    fe_difference_init(&d, sizeof d);
+    if (fe_snapshot_compare(a->bytes, a->size, b->bytes, b->size, &d) > 0)
+        fprintf(stderr, "%s 0x%llx %s[%d]: %s, now %s\n", d.kind, d.handle, d.field, (int)d.element, d.a, d.b);
+    fuzz_fail(f, what);
+}
+
 static void check_numbers(const fuzz *f, const float *numbers, int32_t count, const char *what)
 {
     for (int32_t i = 0; i < count; ++i)
@@ -236,12 +260,12 @@ static void release(void *user, void *memory, uint64_t size)
 fe_result fuzz_step(fuzz *f, float dt)
 {
     for (;;) {
-        uint64_t before = world_hash(f);
+        if (f->failures != 1) take_snapshot(f, &f->before);
         f->is_stepping = 1;
         fe_result result = fe_world_step(f->world, dt);
         f->is_stepping = 0;
+        if (result == FE_ERROR_MEMORY) check_unchanged(f, "a failed step changed the world");
         if (result != FE_ERROR_MEMORY || f->failures < 2) return result;
-        if (world_hash(f) != before) fuzz_fail(f, "a failed step changed the world");
     }
 }
 
@@ -255,11 +279,18 @@ static void run_tasks(void *user, fe_task task, void *argument, int32_t count)
         for (int32_t i = count - 1 - first; i >= 0; i -= 3) task(argument, i);
 }
 
+static void run_tasks_reversed(void *user, fe_task task, void *argument, int32_t count)
+{
+    (void)user;
+    for (int32_t i = count - 1; i >= 0; --i) task(argument, i);
+}
+
 static void open_world(fuzz *f, const fuzz_setting *setting)
 {
     fe_world_def def;
     fe_allocator allocator = {sizeof allocator, 0, allocate, release, f};
-    fe_task_system tasks = {sizeof tasks, setting->workers, run_tasks, NULL};
+    fe_task_system tasks = {sizeof tasks, setting->workers, setting->is_reversed ? run_tasks_reversed : run_tasks,
+                            NULL};
     fe_world_def_init(&def, sizeof def);
     def.allocator = &allocator;
     if (setting->workers > 1) def.tasks = &tasks;
@@ -276,12 +307,14 @@ static void call(fuzz *f, const fuzz_call *c)
     int32_t result;
     f->call_name = c->name;
     for (int32_t attempt = 0;; ++attempt) {
-        uint64_t before = world_hash(f);
+        take_snapshot(f, &f->before);
         f->at = at; // the same arguments
         result = c->run(f);
+        if (c->effect == FUZZ_READS) check_unchanged(f, "a call that reads changed the world");
         if (result >= 0) break;
         if (result < FE_ERROR_DIVERGED) fuzz_fail(f, "a result that has no name");
-        if (world_hash(f) != before) fuzz_fail(f, "an error changed the world");
+        if (c->effect < FUZZ_READS) check_unchanged(f, "an error changed the world");
+        if (f->refused) ++*f->refused;
         if (result != FE_ERROR_MEMORY) break;
         if (attempt > 0) fuzz_fail(f, "no memory, though the allocator has some");
     }
@@ -301,6 +334,7 @@ uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting
     f->is_wild = setting->is_wild;
     f->failures = setting->failures;
     f->chance = UINT64_C(0x9E3779B97F4A7C15) * setting->failures;
+    f->refused = setting->refused;
     f->told = fe__hash_begin();
     f->call_name = "fe_world_create";
     f->tells = getenv("FE_FUZZ_TELL") != NULL;
@@ -309,14 +343,18 @@ uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting
     while (f->at < f->size && f->call_count++ < MOST_CALLS) {
         const fuzz_call *c = fuzz_calls + fuzz_byte(f) % fuzz_call_count;
         call(f, c);
-        if (c->moves) fuzz_check(f);
+        if (c->effect == FUZZ_MOVES || c->effect == FUZZ_SEVERAL) fuzz_check(f);
     }
     f->call_name = "the end";
     fuzz_check(f);
+    take_snapshot(f, &f->after);
+    if (fe_snapshot_check(f->after.bytes, f->after.size, NULL) != FE_OK) fuzz_fail(f, "what it saves is refused");
     if (setting->ends) setting->ends(f->world, setting->user);
     uint64_t told = fe__hash_end(&f->told);
     if (fe_world_destroy(f->world) != FE_OK) fuzz_fail(f, "the world cannot be destroyed");
     if (f->blocks != 0) fuzz_fail(f, "memory was not given back");
+    free(f->before.bytes);
+    free(f->after.bytes);
     free(f);
     return told;
 }

@@ -8,8 +8,9 @@
 #include <stdint.h>
 
 typedef struct fuzz_setting {
-    int32_t workers; // above 1: tasks of one thread, in an order of their own
-    int32_t simd;    // fe_simd
+    int32_t workers;     // above 1: tasks of one thread, in an order of their own
+    int32_t is_reversed; // 1: in another one, the last task first
+    int32_t simd;        // fe_simd
     int32_t is_wild; // 1: every value that the API takes, up to its limits. Results may then overflow, and only crashes
                      // count
     uint32_t failures; // 0: the stream says which allocations fail. 1: none does. Above: a seed; inside steps every
@@ -17,6 +18,7 @@ typedef struct fuzz_setting {
     void (*begins)(fe_world *world, void *user); // with the world, before the first call; NULL: none
     void (*ends)(fe_world *world, void *user);   // after the last one
     void *user;
+    int64_t *refused; // counts calls that were refused; or NULL
 } fuzz_setting;
 
 // Makes a world, calls what the bytes say, checks what must always hold and aborts when it does not. Returns a

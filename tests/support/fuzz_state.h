@@ -8,6 +8,11 @@
 
 enum { FUZZ_HANDLES = 48, FUZZ_MOST_STEPS = 300, FUZZ_TAIL = 64, FUZZ_ROOM = 1 << 14 };
 
+typedef struct fuzz_snapshot {
+    unsigned char *bytes;
+    int64_t size, capacity;
+} fuzz_snapshot;
+
 typedef struct fuzz {
     const uint8_t *bytes;
     size_t size, at;
@@ -27,15 +32,23 @@ typedef struct fuzz {
     uint64_t chance;    // state of its draws
     int32_t is_stepping;
     int64_t blocks;
+    fuzz_snapshot before, after; // of the world, around the call at hand
+    int64_t *refused;            // or NULL
     int32_t is_wild;
     int32_t tells;                                          // the environment has FE_FUZZ_TELL: prints each call
     _Alignas(64) unsigned char room[FUZZ_ROOM + FUZZ_TAIL]; // for arrays in and out
 } fuzz;
 
+typedef enum fuzz_effect {
+    FUZZ_WRITES,
+    FUZZ_MOVES,  // likewise, and all numbers are checked afterwards
+    FUZZ_READS,  // changes nothing, whatever it returns
+    FUZZ_SEVERAL // several calls and all numbers: of one that is refused, those before it may show in a snapshot
+} fuzz_effect;
 typedef struct fuzz_call {
     const char *name;
     int32_t (*run)(fuzz *f); // fe_result or a count
-    int32_t moves;           // 1: all numbers are checked afterwards
+    fuzz_effect effect;
 } fuzz_call;
 extern const fuzz_call fuzz_calls[];
 extern const int32_t fuzz_call_count;
@@ -84,6 +97,12 @@ int32_t fuzz_create_field(fuzz *f); // or a hull
 int32_t fuzz_place_field(fuzz *f);
 int32_t fuzz_edit_field(fuzz *f);
 int32_t fuzz_destroy_asset(fuzz *f);
+// fuzz_reads.c
+int32_t fuzz_draw(fuzz *f);
+int32_t fuzz_clone(fuzz *f);
+int32_t fuzz_load(fuzz *f);
+int32_t fuzz_hold(fuzz *f);
+int32_t fuzz_keep(fuzz *f);
 // fuzz_joints.c
 int32_t fuzz_create_joint(fuzz *f);
 int32_t fuzz_join(fuzz *f);

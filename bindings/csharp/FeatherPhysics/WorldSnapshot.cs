@@ -133,7 +133,7 @@ namespace FeatherPhysics
         /// <param name="destination">begins with them afterwards</param>
         /// <param name="withAssets">
         /// The contents of its assets are in the bytes, too: where they are loaded, none need be there.
-        /// UnsupportedException for a world with compounds. false: assets go by their keys.
+        /// false: assets go by their keys.
         /// </param>
         public int Save(Span<byte> destination, bool withAssets = false)
         {
