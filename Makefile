@@ -4,7 +4,8 @@
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
 #   make check      what a change is tried with first: builds, and asks the fast tests, in under two minutes on 2 cores
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
-#   make test-long  in an hour and a half: 30 minutes of fuzz, the random tests with their full numbers (LONG=pattern)
+#   make test-long  what takes too long for each change, in parts of an hour at most: LONG=laws, soak, fuzz, mutations or rest, or a pattern.
+#                   Each prints its seed; SEED=that one goes on where it ended
 #   make test-state what of that is about snapshots: 1000 random moments of 100 random scenes, 90 000 altered snapshots
 #   make test-many  what of that is about many worlds: 1000 batches beside loops, 1 000 000 resets
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
@@ -228,7 +229,7 @@ test:
 	@+tests/run '$(TESTS)'
 test-long:
 	@tools/deps.sh all
-	@+tests/long '$(LONG)'
+	@+tests/long '$(LONG)' '$(SEED)'
 test-state:
 	@+tests/long '^state/'
 test-many:
@@ -240,6 +241,8 @@ test-many:
 FUZZ_SECONDS ?= 600
 COOKED_SECONDS ?= 120
 STATE_SECONDS ?= 120
+# 0: by chance, and printed
+FUZZ_SEED ?= 0
 FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_pairs.o support/fuzz_reads.o support/fuzz_terrain.o)
 
 $(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
@@ -255,9 +258,9 @@ fuzz:
 	@+$(MAKE) --no-print-directory $(PARALLEL) CC=clang BUILD=$(BUILD)/fuzz OPT=-O1 SIMD_OPT=-O1 SANITIZE=address,undefined \
 	    CFLAGS='$(CFLAGS) -fsanitize=fuzzer-no-link' $(BUILD)/fuzz/feather-fuzz $(BUILD)/fuzz/feather-fuzz-cooked $(BUILD)/fuzz/feather-fuzz-state
 	@mkdir -p $(BUILD)/fuzz/corpus $(BUILD)/fuzz/corpus-cooked $(BUILD)/fuzz/corpus-state
-	cd $(BUILD)/fuzz && ./feather-fuzz -max_total_time=$(FUZZ_SECONDS) -max_len=1500 -timeout=30 corpus
-	cd $(BUILD)/fuzz && ./feather-fuzz-cooked -max_total_time=$(COOKED_SECONDS) -max_len=600 -len_control=0 -timeout=30 corpus-cooked
-	cd $(BUILD)/fuzz && ./feather-fuzz-state -max_total_time=$(STATE_SECONDS) -max_len=129 -len_control=0 -timeout=30 corpus-state
+	cd $(BUILD)/fuzz && ./feather-fuzz -seed=$(FUZZ_SEED) -max_total_time=$(FUZZ_SECONDS) -max_len=1500 -timeout=30 corpus
+	cd $(BUILD)/fuzz && ./feather-fuzz-cooked -seed=$(FUZZ_SEED) -max_total_time=$(COOKED_SECONDS) -max_len=600 -len_control=0 -timeout=30 corpus-cooked
+	cd $(BUILD)/fuzz && ./feather-fuzz-state -seed=$(FUZZ_SEED) -max_total_time=$(STATE_SECONDS) -max_len=129 -len_control=0 -timeout=30 corpus-state
 
 # ---- bench ----------------------------------------------------------------------------------------------------------------------
 

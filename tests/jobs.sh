@@ -48,6 +48,7 @@ job() {
     status=$?
     seconds=$(awk "BEGIN { print $EPOCHREALTIME - $start }")
     report "$name" "$seconds" $status "$log"
+    test $status = 0
 }
 export -f job report
 
@@ -77,4 +78,5 @@ finish() {
     test "$failed" = 0 && test "$passed" != 0
     exit
 }
-run_jobs() { xargs -r -d '\n' -P "$jobs" -I{} bash -c 'job "$1"' _ {}; }
+# run_jobs [function]: the checks on stdin, each by job or by that function. $slot: a number from 0 on that no two at once have.
+run_jobs() { xargs -r -d '\n' -P "$jobs" --process-slot-var=slot -I{} bash -c '"$1" "$2"' _ "${1:-job}" {}; }
