@@ -190,21 +190,32 @@ static inline wide4 load_points(const fe__manifold *found)
     return w_transpose(*first, *second, *third, *fourth);
 }
 
+static inline float sum_of(wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+
 // Impulses stay with the features that meet, of one point or more. All are compared with all: which are the same no
-// branch can guess
-static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found)
+// branch can guess. `hands_on`: what features bore that are gone is borne by those that are new, in equal parts
+static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found,
+                           int32_t hands_on)
 {
     const fe__manifold_point *p = found->points;
     int32_t last = found->count - 1;
-    wide_int there = (wide_int){0, 1, 2, 3} < found->count, before, now;
+    wide_int there = (wide_int){0, 1, 2, 3} < found->count, before, now, known = {0, 0, 0, 0};
     memcpy(&before, features->ids, sizeof before);
     for (int32_t i = 0; i < FE_W; ++i) now[i] = (int32_t)p[fe__mini(i, last)].id;
     wide old = *(const quad *)q->normal_impulse, impulse = w_set(0.0f);
     for (int32_t j = 0; j < FE_W; ++j) {
         wide_int same = (now == before[j]) & ((wide_int){0, 0, 0, 0} + j < old_count);
         impulse = w_choose(same, w_set(old[j]), impulse);
+        known |= same;
     }
-    *(quad *)q->normal_impulse = keep(there, impulse);
+    impulse = keep(there, impulse);
+    if (hands_on) {
+        wide_int fresh = there & ~known;
+        int32_t count = -(fresh[0] + fresh[1] + fresh[2] + fresh[3]);
+        float left = fe__maxf(sum_of(keep((wide_int){0, 1, 2, 3} < old_count, old)) - sum_of(impulse), 0.0f);
+        if (count > 0) impulse = w_choose(fresh, w_set(left / (float)count), impulse);
+    }
+    *(quad *)q->normal_impulse = impulse;
     now = (now & there) | (before & ~there);
     memcpy(features->ids, &now, sizeof now);
 }
@@ -405,6 +416,15 @@ static int32_t may_outrun(const fe__body *a, const fe__shape *x, const fe__shape
     return a->type != FE_BODY_DYNAMIC && reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
 }
 
+// Does what the old points bore act along the same normal? The features of what has a rim change with the least turn,
+// from a line to a point and back, and a heap that loses its load with each of them never sleeps
+static int32_t hands_on(const fe__contact *m, const fe__view *v, const fe__manifold *found)
+{
+    const float same_way = 0.98f; // cos 11.5 degrees
+    if (!(fe__form_is_curved(&v->a->form) || fe__form_is_curved(&v->b->form))) return 0;
+    return fe__dot(fe__quad_vector(m->normal), solvers_normal(m, v, found->normal)) > same_way;
+}
+
 // 1: it is apart, and how is told. 0: it has points, which are written unless it was not to. The flags of the pair are
 // read by others meanwhile
 static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points, fe__apart *apart,
@@ -454,7 +474,8 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     p->axis_separation = axis_separation;
     p->axis = axis;
     if (!m->points) fe__points_take(world, pair);
-    match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found);
+    match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found,
+                   hands_on(m, &v, &found));
     float tolerance = fe__recycle_tolerance(&v);
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;

@@ -189,16 +189,15 @@ static int32_t touch_faces(facing *f, const fe__core_touch *found, float margin,
     return has_rim && cut_by(f, 1 - first, found, margin, manifold) > 0;
 }
 
-// Edges and sides along each other
-static int32_t touch_lines(const facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
+// Cylinders, capsules and segments: cores with a radius
+static int32_t touch_segments(const facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
     fe__segment segments[2];
     const fe_vec3 axes[2] = {fe__vec3(0.0f, 1.0f, 0.0f), f->b_in_a->rotation.y};
-    if (f->face[0].count != 2 || f->face[1].count != 2) return 0;
     for (int32_t i = 0; i < 2; ++i) {
         const fe__form *form = f->form[i];
         const fe_vec3 *end = f->face[i].vertex;
-        if (form->type == FE__FORM_CONE) return 0; // its side is no segment with a radius
+        if (f->face[i].count != 2 || form->type == FE__FORM_CONE) return 0;
         if (fe__form_is_curved(form)) {
             const float across = 1e-4f; // the normal's part along the axis: else its rim is touched
             if (fe__absf(fe__dot(axes[i], found->normal)) > across) return 0;
@@ -213,6 +212,16 @@ static int32_t touch_lines(const facing *f, const fe__core_touch *found, float m
     }
     return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, f->form[0], f->form[1]),
                             found->separation, margin, manifold);
+}
+
+// Edges and sides along each other. A disc's points at its rim are no edges.
+static int32_t touch_lines(const facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
+{
+    const fe__form *a = f->form[0], *b = f->form[1];
+    if (touch_segments(f, found, margin, manifold) > 0) return 1;
+    if (!(fe__form_is_curved(a) || fe__form_is_curved(b)) || f->face[0].rim > 0.0f || f->face[1].rim > 0.0f) return 0;
+    float tie = fe__tie(fe__minf(fe__form_thickness(a), fe__form_thickness(b)));
+    return fe__lay_lines(a, b, &f->face[0], &f->face[1], found, middle_of(found, a, b), tie, margin, manifold);
 }
 
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
