@@ -206,6 +206,13 @@ FE_INLINE wide3 joined_change(const fe__solver *s, int32_t i, wide kind, wide3 w
     return w_choose3(is_joined(kind), change, (wide3){w_set(0.0f), w_set(0.0f), w_set(0.0f)});
 }
 
+FE_INLINE wide3 within(wide3 v, float speed)
+{
+    wide square = w_dot(v, v), most = w_set(speed);
+    wide_mask fast = w_greater(square, most * most);
+    return w_any(fast) ? w_scale(w_choose(fast, most / w_sqrt(square), w_set(1.0f)), v) : v;
+}
+
 // f(v): all that changes a velocity and is no constraint and no gyroscopic torque: gravity and forces, damping
 // 1 / (1 + h c), the speed limit
 FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
@@ -214,9 +221,7 @@ FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants 
     load_line(s->drive, i, &linear, &angular);
     *v = w_scale(linear.w, w_add_scaled(*v, w_set(c->h), w_xyz(linear)));
     *w = w_scale(angular.w, w_add_scaled(*w, w_set(c->h), w_xyz(angular)));
-    wide square = w_dot(*v, *v), most = w_set(c->max_speed);
-    wide_mask fast = w_greater(square, most * most);
-    if (w_any(fast)) *v = w_scale(w_choose(fast, most / w_sqrt(square), w_set(1.0f)), *v);
+    *v = within(*v, c->max_speed);
     // no -0: then what adds nothing, +0 or -0, leaves each bit as it is, and may be left out (contact/idle.inl)
     *v = w_add(*v, w_zero3()), *w = w_add(*w, w_zero3());
 }
@@ -293,7 +298,8 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
     for (int32_t i = first; i < first + count; i += FE_W) {
         wide4 p, q;
         load_line(s->motion, i, &p, &q);
-        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
+        wide3 v = within(w_xyz(load_low(s->velocity, i)), c->max_speed),
+              half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
         if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         u = w_flush3(u, w_set(FE__LEAST_SPEED));

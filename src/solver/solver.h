@@ -74,6 +74,7 @@ typedef struct fe__step_constants {
     float h, inverse_h;       // of a substep, s
     float bias_speed;         // overlap is corrected no faster, m/s
     float threshold;          // of restitution, m/s
+    float impact;             // m/s; what stops more in a substep was an impact
     float warm_scale;         // h now / h of the stored impulses
     float contact_warm_scale; // that, or 0: contacts begin without them
     float max_speed;          // m/s

@@ -160,6 +160,15 @@ static void take_flushed(float *out, const float *in)
     *(quad *)out = a;
 }
 
+// What constraints gave a velocity in the last pass, too, ends at the limit
+static void limit_speed(float *v, float most)
+{
+    double x = (double)v[0], y = (double)v[1], z = (double)v[2], square = x * x + y * y + z * z;
+    if (!(square > (double)most * (double)most)) return;
+    double k = (double)most / __builtin_sqrt(square);
+    v[0] = (float)(k * x), v[1] = (float)(k * y), v[2] = (float)(k * z);
+}
+
 // of joined bodies on which a gyroscopic torque acts
 static void note_relaxed(const fe__solver *s, const fe__motion_line *motion, fe__body *body)
 {
@@ -193,6 +202,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             continue;
         }
         take_flushed(body->velocity, velocity->v);
+        limit_speed(body->velocity, w->tuning.max_linear_speed);
         take_flushed(body->spin, velocity->w);
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, motion, body);

@@ -27,6 +27,12 @@ enum { MOST_DIVISION = 16, FINE_SWEEPS = 3 };
 #define STRETCHED_RATE 480.0f
 #define STRETCHED_GAP 0.05f // m
 
+// An impact stops more than this within a substep, m/s, and more than so many times what gravity gives in one. What is
+// set down, or gets new points of contact, takes up its weight at once too; its friction is no impact's, and without it
+// the body would begin to slide.
+#define IMPACT_SPEED 0.05f
+#define IMPACT_WEIGHT 1.5f
+
 static int32_t division_of(float h, float rate)
 {
     int32_t division = 1;
@@ -67,6 +73,7 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
                             .division = division,
                             .sweeps = 1,
                             .gravity = w->gravity};
+    c.impact = fe__maxf(IMPACT_SPEED, IMPACT_WEIGHT * h * __builtin_sqrtf(fe__dot(w->gravity, w->gravity)));
     c.contact_warm_scale = t->warm_start_enabled ? c.warm_scale : 0.0f;
     c.joint_hertz = FE__MOST_JOINT_HERTZ * rate;
     c.joint = fe__make_softness(fe__minf(t->joint_hertz, c.joint_hertz), t->joint_damping_ratio, h);

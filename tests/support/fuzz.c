@@ -257,6 +257,25 @@ static void release(void *user, void *memory, uint64_t size)
     fe__aligned_free(memory);
 }
 
+#define SHORTEST_STEP 1e-5f // s; a shorter one moves nothing
+
+// Whatever the masses, and whatever holds them: `max_linear_speed`, to rounding
+static void check_speeds(const fuzz *f)
+{
+    fe_body bodies[FUZZ_HANDLES];
+    fe_world_tuning tuning = {.struct_size = sizeof tuning};
+    int32_t count = fe_world_get_bodies(f->world, bodies, FUZZ_HANDLES), awake;
+    if (fe_world_get_tuning(f->world, &tuning)) fuzz_fail(f, "no tuning");
+    for (int32_t i = 0; i < count && i < FUZZ_HANDLES; ++i) {
+        fe_vec3 v;
+        if (fe_body_get_linear_velocity(f->world, bodies[i], &v) || fe_body_get_awake(f->world, bodies[i], &awake))
+            fuzz_fail(f, "a living body cannot be read");
+        double x = (double)v.x, y = (double)v.y, z = (double)v.z;
+        if (awake && sqrt(x * x + y * y + z * z) > 1.000001 * (double)tuning.max_linear_speed)
+            fuzz_fail(f, "a body faster than the limit");
+    }
+}
+
 fe_result fuzz_step(fuzz *f, float dt)
 {
     for (;;) {
@@ -265,6 +284,7 @@ fe_result fuzz_step(fuzz *f, float dt)
         fe_result result = fe_world_step(f->world, dt);
         f->is_stepping = 0;
         if (result == FE_ERROR_MEMORY) check_unchanged(f, "a failed step changed the world");
+        if (result == FE_OK && dt >= SHORTEST_STEP) check_speeds(f);
         if (result != FE_ERROR_MEMORY || f->failures < 2) return result;
     }
 }

@@ -50,11 +50,8 @@
 // The greatest share of the rest that a run of a row leaves: a cube's is 0.6, and parts of bodies that are held
 // elsewhere too are stretched by 4 at most.
 #define MOST_SHARE 0.75f
-// An impact: this share of the load came within a substep,
+// An impact: this share of the load came within a substep, and stopped more than c->impact, m/s
 #define IMPACT_SHARE (1.0f / 3.0f)
-// and stopped this much, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of
-// 1/30 s; its friction is no impact's, and without it the body would begin to slide
-#define IMPACT_SPEED 0.05f
 
 typedef struct {
     wide r[3];     // from A's centre (from B's when A is static: then span is 0)

@@ -90,12 +90,14 @@ FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const
     }
 }
 
-FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const pair *p, int kind)
+FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const pair *p, const fe__step_constants *c,
+                                      int kind)
 {
     NAMED(find_rolling_masses)(x, p, every_lane(), kind);
     wide3 pull = w_sub(w_xyz(gather_low(s->drive, x->row.line_a)), w_xyz(gather_low(s->drive, x->row.line_b)));
     x->closing = w_dot(p->normal, pull);
     x->gain = w_set(0.0f);
+    x->half_h = w_set(0.5f * c->h);
     UNROLL for (int i = 0; i < POINTS; ++i) x->approach[i] = x->flight[i] = w_set(0.0f);
 }
 
@@ -159,7 +161,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
-    if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, kind);
+    if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, c, kind);
     row->load = NAMED(load_of)(row);
     NAMED(apply_all)(row, &p, kind);
     NAMED(scatter_pair)(row, s, &p, kind);

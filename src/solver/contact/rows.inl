@@ -78,6 +78,7 @@ typedef struct SPECIAL_ROW {
     wide spinning_mass;
     wide rolling_impulse[3];
     wide surface[3]; // velocity of B's surface against A's
+    wide half_h;     // of a substep, s
 } SPECIAL_ROW;
 
 // What a relax pass changes
@@ -328,6 +329,18 @@ FE_INLINE wide NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
 
 // ---- friction -------------------------------------------------------------------------------------------------------
 
+// What surfaces add to the slip: that of a belt; and that of a kinematic A, which rotates on: it is to be that of the
+// middle of the substep, whose velocity led from pose to pose,
+//     wA x r - h/2 wA x (wA x r)         r: to B's centre
+// and not that of the end. What rides on A would get the next substep's velocity half a substep early, and creep
+// inwards by w^2 r h / 2.
+FE_INLINE wide3 NAMED(surface_slip)(const SPECIAL_ROW *x, const pair *p, int kind)
+{
+    wide3 surface = load3(x->surface);
+    if (kind & FE__ROW_PAIR) return surface;
+    return w_sub_scaled(surface, x->half_h, w_cross(p->a.w, w_cross(p->a.w, p->span)));
+}
+
 // Of the impulses l within Coulomb's cone, |l| <= c, those of a contact that slides dissipate most (J. Moreau, 1988):
 //     u' = u + K (l - l0) = -k l,  |l| = c        they oppose the slip u' that is left
 //     l = -(K + k)^-1 (u - K l0)                  l0: the impulse before, with which the slip is u
@@ -371,7 +384,7 @@ FE_INLINE wide NAMED(solve_friction)(ROW *row, pair *p, wide stretch, int kind)
         row->twist_impulse = twist;
     }
     wide3 slip = w_sub(w_add(p->b.v, w_cross(p->b.w, rb)), w_add(p->a.v, w_cross(p->a.w, ra)));
-    if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
+    if (kind & FE__ROW_SPECIAL) slip = w_add(slip, NAMED(surface_slip)((const SPECIAL_ROW *)row, p, kind));
     wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
     const wide *m = row->tangent_mass;
     wide least = w_set(FE__LEAST_IMPULSE),
@@ -456,20 +469,21 @@ FE_INLINE wide NAMED(rise_of)(const ROW *row, wide gain, int kind)
     return w_choose(lasts, since, w_max(gain, since));
 }
 
-FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response)
+FE_INLINE wide_mask NAMED(is_impact)(wide load, wide rise, wide response, const fe__step_constants *c)
 {
-    return w_and(w_greater(rise, IMPACT_SHARE * load), w_greater(rise * response, w_set(IMPACT_SPEED)));
+    return w_and(w_greater(rise, IMPACT_SHARE * load), w_greater(rise * response, w_set(c->impact)));
 }
 
 // Lanes whose friction changed too much by the last pass, see settle. Of impacts only those of several points, which
 // may hold the body flat. `change`: m/s
-FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change, wide rise, int kind)
+FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change, wide rise, const fe__step_constants *c,
+                                     int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
     wide response = p->a.inverse_mass + p->b.inverse_mass, load = NAMED(load_of)(row);
     wide friction = w_abs(row->tangent_impulse[0]) + w_abs(row->tangent_impulse[1]);
-    wide_mask gentle = w_greater(w_set(IMPACT_SPEED), rise * response);
-    wide_mask lands = w_and(NAMED(has_many)(row), NAMED(is_impact)(load, rise, response));
+    wide_mask gentle = w_greater(w_set(c->impact), rise * response);
+    wide_mask lands = w_and(NAMED(has_many)(row), NAMED(is_impact)(load, rise, response, c));
     if (kind & FE__ROW_SPECIAL) lands = w_and(lands, w_not(w_greater(x->restitution, w_set(0.0f))));
     wide least = w_choose(gentle, UNSETTLED * load, UNSETTLED_LANDING * friction);
     return w_and(w_or(gentle, lands), w_greater(change, least * response + UNSETTLED_SPEED));
@@ -501,7 +515,7 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
     wide one = w_set(1.0f), stretch = one, response = p.a.inverse_mass + p.b.inverse_mass;
     // what lands had no friction before: the first part is that of the pass
     wide last[2] = {row->tangent_impulse[0], row->tangent_impulse[1]};
-    wide_mask lands = w_greater(rise * response, w_set(IMPACT_SPEED));
+    wide_mask lands = w_greater(rise * response, w_set(c->impact));
     for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
         PASSING before = NAMED(passing_of)(row, &p, kind);
         NAMED(solve_normals)(row, c, &p, kind, 0);
@@ -509,7 +523,7 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
         wide change = NAMED(solve_friction)(row, &p, stretch, kind);
         stretch = w_choose(lands, NAMED(note_part)(row, before.tangent, stretch, last), one);
         NAMED(keep_others)(row, &p, &before, unsettled, kind);
-        unsettled = w_and(unsettled, NAMED(unsettled)(row, &p, change, rise, kind));
+        unsettled = w_and(unsettled, NAMED(unsettled)(row, &p, change, rise, c, kind));
     }
     return p;
 }
@@ -603,7 +617,7 @@ FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, wide gai
     wide load = NAMED(load_of)(row), response = p->a.inverse_mass + p->b.inverse_mass;
     wide rise = NAMED(rise_of)(row, gain, kind); // with the totals of before
     UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
-    wide_mask rose = NAMED(is_impact)(load, rise, response);
+    wide_mask rose = NAMED(is_impact)(load, rise, response, c);
     if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row, c->threshold)));
     if (w_any(rose)) NAMED(leave_friction)(row, s, load, rise, rose, kind);
     row->load = load;
@@ -635,7 +649,7 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__records *of, const fe__lane
         wide change = NAMED(solve_friction)(row, &p, w_set(1.0f), kind);
         if (w_any(w_greater(change, w_set(UNSETTLED_SPEED)))) {
             wide rise = NAMED(rise_of)(row, gain, kind);
-            wide_mask unsettled = NAMED(unsettled)(row, &p, change, rise, kind);
+            wide_mask unsettled = NAMED(unsettled)(row, &p, change, rise, c, kind);
             if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, rise, kind);
         }
         NAMED(scatter_pair)(row, s, &p, kind);
