@@ -290,7 +290,10 @@ static void a_tree_has_no_room_for_millions(void **state)
 static const fe__field *pick_number(bytes b, uint32_t *seed, fe__table_number *out_table)
 {
     for (;;) {
-        const fe__table_number table = (fe__table_number)(draw(seed) % FE__TABLES);
+        static const fe__table_number often[] = {FE__TABLE_BODIES, FE__TABLE_POINTS, FE__TABLE_FOUND,
+                                                 FE__TABLE_JOINT_ANCHORS}; // what the solver multiplies
+        const fe__table_number table =
+            draw(seed) % 2 ? often[draw(seed) % 4] : (fe__table_number)(draw(seed) % FE__TABLES);
         const fe__field *field = fe__tables[table].fields + draw(seed) % (uint32_t)fe__tables[table].field_count;
         if (field->kind != FE__F32 && field->kind != FE__F64) continue;
         if (take(b.data + section_at(b, (int32_t)table) + SECTION, 8) == 0) continue;
@@ -366,6 +369,36 @@ static const char *no_number_in(const fe_world *world)
         if (!are_finite(&force.x, 3) || !are_finite(&torque.x, 3)) return "a joint's reaction";
     }
     return NULL;
+}
+
+// The solver multiplies by a body's inverse mass and by quotients of its mass and its moments: they follow from each
+// other, or are none that a body has. Of a body with a mass all numbers but its own are refused
+static void an_inverse_mass_is_that_of_the_mass(void **state)
+{
+    (void)state;
+    enum { DRAWS = 200 };
+    fe_world *world = make_scene(&script_joints, 40);
+    bytes whole = save(world);
+    uint32_t seed = 20261128;
+    const fe__field *fields = fe__tables[FE__TABLE_BODIES].fields, *inverse = fields, *mass = fields;
+    while (strcmp(inverse->name, "inverse_mass") != 0) ++inverse;
+    while (strcmp(mass->name, "mass") != 0) ++mass;
+    int32_t rows = (int32_t)take(whole.data + section_at(whole, FE__TABLE_BODIES) + SECTION, 8);
+    for (int32_t i = 0; i < DRAWS; ++i) {
+        bytes b = {malloc((size_t)whole.size), whole.size};
+        memcpy(b.data, whole.data, (size_t)whole.size);
+        float old, x = (float)any_number(&seed, -149, 127);
+        const fe__field *field = i % 2 ? inverse : mass;
+        unsigned char *row = row_of(b, FE__TABLE_BODIES, (int32_t)(draw(&seed) % (uint32_t)rows));
+        memcpy(&old, row + place_in_row(FE__TABLE_BODIES, inverse), sizeof old);
+        memcpy(row + place_in_row(FE__TABLE_BODIES, field), &x, sizeof x);
+        mend(b);
+        if (old > 0.0f && fe_world_restore(world, NULL, b.data, b.size) != FE_ERROR_DATA)
+            fail_msg("body with the inverse mass %g: its %s may be %g", (double)old, field->name, (double)x);
+        free(b.data);
+    }
+    free(whole.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
 // A number of any size in one place is refused, or the world steps, and all that is read of it and all that it saves
@@ -472,6 +505,7 @@ int main(void)
         cmocka_unit_test(a_speed_beyond_all_bounds_is_refused),
         cmocka_unit_test(nodes_that_nobody_meets_are_refused),
         cmocka_unit_test(a_tree_has_no_room_for_millions),
+        cmocka_unit_test(an_inverse_mass_is_that_of_the_mass),
         cmocka_unit_test(numbers_of_any_size_are_refused_or_sound),
         cmocka_unit_test(brief_under_random_numbers),
         cmocka_unit_test(crowd_under_random_numbers),

@@ -339,6 +339,7 @@ static int32_t create_whole(fuzz *f)
     float size = 0.1f + (float)(kind % 16) * 0.05f;
     d.transform = fe_make_transform((double)(x % 16) * 0.25 - 2.0, (double)y / 64.0, (double)(x / 16) * 0.25 - 2.0);
     d.type = kind > 250 ? FE_BODY_STATIC : FE_BODY_DYNAMIC;
+    d.sleep_allowed = y % 8 != 0;
     fe_geometry_box(&g, size, 0.5f * size, 0.7f * size);
     if (kind & 16) fe_geometry_sphere(&g, size);
     if (kind & 32) fe_geometry_capsule(&g, size, 0.5f * size);
@@ -452,6 +453,9 @@ static int32_t set_switch(fuzz *f)
     int32_t which = fuzz_byte(f) % COUNT(switches);
     return switches[which](f->world, body, fuzz_byte(f) % 3);
 }
+
+// Most are awake, and some touch one that may not sleep
+static int32_t put_to_sleep(fuzz *f) { return fe_body_set_awake(f->world, f->bodies[fuzz_byte(f) % FUZZ_HANDLES], 0); }
 
 static int32_t push(fuzz *f)
 {
@@ -711,6 +715,8 @@ const fuzz_call fuzz_calls[] = {
     {"fe_body_set_damping", set_damping, FUZZ_WRITES},
     {"fe_body_set_gravity_scale", set_gravity_scale, FUZZ_WRITES},
     {"fe_body_set_awake and such", set_switch, FUZZ_MOVES},
+    {"fe_body_set_awake", put_to_sleep, FUZZ_WRITES},
+    {"fe_body_set_awake", put_to_sleep, FUZZ_WRITES},
     {"fe_body_add_impulse and such", push, FUZZ_MOVES},
     {"fe_body_add_force_at, impulse_at", push_at, FUZZ_MOVES},
     {"fe_body_set_filter", set_body_filter, FUZZ_WRITES},
