@@ -53,10 +53,26 @@ static int32_t to_come(const fe__step *step)
     return step->scratch->candidate_count + atomic_load(&step->scratch->due_count);
 }
 
+// Awake pairs with triggers that do not wait. Where they are few, it is not worth a walk
+static int32_t count_sensors(const fe_world *w)
+{
+    enum { FEW = 16 };
+    int32_t count = 0, many = w->trigger_pair_count > w->awake_pair_count / FEW;
+    for (int32_t i = 0; i < w->awake_pair_count && many; ++i)
+        count += w->awake_pairs[i] >= 0 && w->pairs[w->awake_pairs[i]].flags & FE__PAIR_SENSOR;
+    return count;
+}
+
+static int32_t is_sensor(const fe_world *w, const fe__candidate *c)
+{
+    return ((w->shapes[c->shape_a].flags | w->shapes[c->shape_b].flags) & FE__SHAPE_TRIGGER) != 0;
+}
+
 static void expect(const fe__step *step, fe__graph_bound *b)
 {
     fe__step_scratch *s = step->scratch;
     s->candidate_patches = 0;
+    s->sensors = count_sensors(step->world);
     for (int32_t n = 0; n < to_come(step); ++n) {
         fe__body *body[2];
         fetch_bodies(step, n);
@@ -64,8 +80,9 @@ static void expect(const fe__step *step, fe__graph_bound *b)
         int32_t patches = is_field_candidate(step, n) ? FE__PATCHES : 1;
         body[0]->coming_contacts += patches, body[1]->coming_contacts += patches;
         s->candidate_patches += patches - 1;
-        if (n < s->candidate_count)
-            b->kinds |= 1u << fe__pair_kind(step->world, s->candidates[n].shape_a, s->candidates[n].shape_b);
+        if (n >= s->candidate_count) continue;
+        s->sensors += is_sensor(step->world, s->candidates + n);
+        b->kinds |= 1u << fe__pair_kind(step->world, s->candidates[n].shape_a, s->candidates[n].shape_b);
     }
 }
 
@@ -154,10 +171,10 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
             unlinked = busy - w->awake_linked_count, patches = w->field_pair_count * (FE__PATCHES - 1),
             woken = w->solver.unbuilt;
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
-    b->contacts = busy + asleep + patches + coming;
+    b->contacts = busy + asleep + patches + coming - s->sensors;
     step->scratch->points_to_come =
         unlinked + fe__mini(asleep, unlinked_sleepers(w)) + patches + coming; // pairs that may have none yet
-    b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
+    b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken - s->sensors);
     bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
     b->crowded = fe__mini(b->crowded, b->fresh);
@@ -202,11 +219,14 @@ static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int3
     return b;
 }
 
+// With those that get no row
+static int32_t pairs_of(const fe__step *step, const fe__graph_bound *b) { return b->contacts + step->scratch->sensors; }
+
 // What is sorted, or left its box, lies where the rows do
 static int32_t reserve_rooms(const fe__step *step, const fe__graph_bound *b)
 {
     fe_world *w = step->world;
-    int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
+    int64_t sorted = fe__maxi(fe__maxi(pairs_of(step, b), step->scratch->candidate_count), w->body_count);
     sorted += w->owed_count + w->joint_count + w->encounter_count;
     int64_t bytes = fe__maxl(2 * sorted * (int64_t)sizeof(fe__sort_item), w->shape_count * (int64_t)sizeof(fe__bounds));
     // at least one, so that an empty stretch has an address too
@@ -218,15 +238,15 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__memory *memory = w->step_memory, *kept = &w->memory;
-    return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
+    const int64_t pairs = pairs_of(step, b);
+    return FE_RENEW(memory, s->results, s->result_capacity, pairs + 1) &&
            // a body that leaps ends all waiting within the step
-           FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + atomic_load(&s->waiting_count) + 1) &&
+           FE_RESERVE(memory, s->busy, s->busy_capacity, pairs + atomic_load(&s->waiting_count) + 1) &&
            FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RESERVE(kept, w->pair_events, w->pair_event_capacity,
-                      (int64_t)b->contacts + w->owed_count + w->encounter_count) &&
+           FE_RESERVE(kept, w->pair_events, w->pair_event_capacity, pairs + w->owed_count + w->encounter_count) &&
            FE_RESERVE(kept, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(kept, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
            FE_RESERVE(kept, w->joint_events, w->joint_event_capacity, w->breakable_count);

@@ -40,6 +40,7 @@ typedef struct fe__step_scratch {
     fe__candidate *candidates;
     int32_t candidate_capacity, candidate_count;
     int32_t candidate_patches; // further records that the candidates with heightfields need
+    int32_t sensors;           // pairs with triggers among those that may meet in this step: they get no row
     int32_t points_to_come;    // records of points that pairs without may take in this step
     uint32_t *moved_bits;      // by shape: 1 while it is in fe_world.moved and the search for candidates runs, else 0
     int32_t moved_words;

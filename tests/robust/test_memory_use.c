@@ -256,6 +256,30 @@ static void what_is_born_in_a_point_takes_memory_in_proportion(void **state)
     }
 }
 
+// Its records take 128 + 64 + 64 bytes and its points 168; the set of pairs, candidates, lists and what is sorted some
+// 150 more, and events up to 150. An array may have an eighth of room. A row of a contact would take 2 KB
+static void a_pair_with_a_trigger_takes_no_row(void **state)
+{
+    enum { TRIGGERS = 200, BALLS = 200, PAIR_BYTES = 1000 };
+    (void)state;
+    counting memory = {0};
+    play p;
+    play_begin(&p, world_of(&memory, FE_SIMD_AUTO, 1));
+    for (int32_t i = 0; i < TRIGGERS; ++i) {
+        part a = part_static_box(1.0f, 1.0f, 1.0f, 0, 5, 0);
+        a.shape.trigger = 1, a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY;
+        add(&p, a);
+    }
+    step(&p);
+    for (int32_t i = 0; i < BALLS; ++i) add(&p, part_sphere(0.05f, 0.15 * (i % 10) - 0.7, 5.0, 0.08 * (i / 10) - 0.8));
+    int64_t before = counters_of(p.world).bytes;
+    for (int32_t i = 0; i < 3; ++i) step(&p);
+    assert_in_range(counters_of(p.world).pairs, TRIGGERS * BALLS, TRIGGERS * BALLS * 11 / 10);
+    FE_WITHIN((double)(counters_of(p.world).bytes - before) / (TRIGGERS * BALLS), 0, PAIR_BYTES);
+    fe_world_destroy(p.world);
+    assert_int_equal(memory.blocks, 0);
+}
+
 // What many lie on is no crowd: they have few neighbours each
 static void what_a_body_carries_is_never_left_out(void **state)
 {
@@ -282,6 +306,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_crowd_keeps_the_deepest_and_counts_the_others),
         cmocka_unit_test(a_thousand_bodies_in_a_point_take_64_megabytes_at_most),
         cmocka_unit_test(what_is_born_in_a_point_takes_memory_in_proportion),
+        cmocka_unit_test(a_pair_with_a_trigger_takes_no_row),
         cmocka_unit_test(what_a_body_carries_is_never_left_out),
     };
     if (argc > 1) burst_draws = atoi(argv[1]);
