@@ -1501,7 +1501,8 @@ FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, 
 ///
 /// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. A body that it overlaps at
 /// the start is a hit at fraction 0, flagged FE_HIT_STARTED_INSIDE. One that it starts to touch is a hit at fraction 0
-/// without the flag; one that it leaves or slides along is no hit. Heightfields are passed from below, one-sided meshes
+/// without the flag; one that it leaves or slides along is no hit. What overlaps by a nanometre at most touches, since
+/// that is what doubles and rotations leave of an exact touch. Heightfields are passed from below, one-sided meshes
 /// from behind; what cuts their surface overlaps them. At equal fractions what overlaps comes first, then the body
 /// created first.
 /// @param geometry     sphere, capsule, box, cylinder, cone or hull; a sphere of radius 0 sweeps as a ray

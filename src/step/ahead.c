@@ -37,6 +37,13 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
     return fe__time_of_impact(a, b, limit, impact);
 }
 
+int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt)
+{
+    fe__mobile a, b;
+    fe__impact impact;
+    return meeting_of(world, pair, dt, 1.0, &a, &b, &impact) != FE_MEET_NEVER;
+}
+
 // sine of half the angle until the touch above which a contact says nothing of the bodies as they are now
 #define TURNED 0.25f
 

@@ -9,6 +9,7 @@
 #include "solver/graph/graph.h"
 #include "step/narrow.h"
 #include "step/narrow_field.h"
+#include "step/sleepers.h"
 #include "world/encounter.h"
 #include "world/pair_link.h"
 #include "world/pairs.h"
@@ -253,10 +254,29 @@ static void apply_results(fe__step *step, int32_t first)
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
         if (p->result == FE__RESULT_PASSES) change_sides(w, results[i]);
-        if (p->result != FE__RESULT_BEGIN) continue;
+        if (p->result != FE__RESULT_BEGIN || fe__pair_lets_sleep(step, results[i])) continue;
         fe__pair_link(w, results[i], step->dt);
         wake_sleeping(w, p->body_a);
         wake_sleeping(w, p->body_b);
+    }
+}
+
+// Pairs that let one of the two sleep: another may have woken it since
+static void settle_sleepers(fe__step *step)
+{
+    fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    int32_t count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t pair = s->results[i];
+        const fe__pair *p = w->pairs + pair;
+        if (p->result != FE__RESULT_BEGIN || p->flags & FE__PAIR_LINKED) continue;
+        if (!fe__pair_lets_sleep(step, pair)) {
+            fe__pair_link(w, pair, step->dt);
+            continue;
+        }
+        fe__drop_points(w, pair);
+        fe__defer_pair(step, pair, 0.0f);
     }
 }
 
@@ -277,6 +297,7 @@ void fe__update_contacts(fe__step *step)
         apply_results(step, results);
         first = end;
     }
+    settle_sleepers(step);
     int32_t count = atomic_load(&s->result_count);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[s->results[i]].result == FE__RESULT_END && w->pairs[s->results[i]].flags & FE__PAIR_PATCH)

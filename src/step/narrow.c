@@ -252,6 +252,15 @@ static void set_no_points(fe__contact *m, fe__points *q, const fe__body *a, cons
     m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
 }
 
+void fe__drop_points(fe_world *world, int32_t pair)
+{
+    fe__contact *m = world->contacts + pair;
+    world->pairs[pair].axis = -1;
+    set_no_points(m, fe__points_of(world, m), world->bodies + m->body_a, world->bodies + m->body_b);
+    m->surface.tolerance = 0.0f;
+    fe__points_release(world, pair);
+}
+
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the
 // touch, and the turns from there to now take the place of the rotations.
 static void step_back(fe__contact *m, fe__points *q, const fe__places *at, const fe__body *a, const fe__body *b)

@@ -82,6 +82,8 @@ FE_FETCHES fe__fetch_of_hulls(const fe_world *w, int32_t pair)
     fe__hull_form_fetch_vertices(b), fe__hull_form_fetch_faces(b);
 }
 
+// Takes a pair's points away; the next step looks for them again.
+void fe__drop_points(fe_world *world, int32_t pair);
 // how far the pair can close in the step, m
 float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b);
 // how far a manifold with points may slide or turn before it is looked for anew, m

@@ -42,16 +42,6 @@ void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *g
     gap_of(&cores, gap);
 }
 
-double fe__curved_depth(const fe__approach *s, fe_dvec3 *way_out)
-{
-    fe__cores cores = cores_at(s, s->position);
-    fe__gjk gjk;
-    fe__gjk_distance_closely(&cores, &gjk);
-    fe__penetration p = fe__epa_depth(&cores, &gjk);
-    *way_out = p.normal;
-    return p.depth;
-}
-
 // ---- planes that hold the two apart ---------------------------------------------------------------------------------
 // The cores are no nearer than the planes across `n` (unit, from the frame to the other) that hold them: what is sure
 // of a distance, whatever rounding made of the nearest points of a large form.
@@ -74,6 +64,35 @@ static void keep_nearest_side(int32_t type, const fe__axes *axes, fe_dvec3 n, fe
         keep_nearest_axis(axes->z, n, best);
     }
     if (type == FE__FORM_BOX || type == FE__FORM_CYLINDER || type == FE__FORM_CONE) keep_nearest_axis(axes->y, n, best);
+}
+
+// Where the cores only just touch, the polytope around their difference may have no face there: the flat sides are
+// asked too, both ways. The point is that which the one without the side has farthest along it.
+static void try_sides(int32_t type, const fe__axes *axes, int32_t is_of_frame, const fe__cores *cores,
+                      fe__penetration *found)
+{
+    const fe_dvec3 side[3] = {axes->y, axes->x, axes->z};
+    int32_t count = type == FE__FORM_BOX ? 3 : type == FE__FORM_CYLINDER || type == FE__FORM_CONE ? 1 : 0;
+    for (int32_t i = 0; i < 2 * count; ++i) {
+        fe_dvec3 n = i & 1 ? fe__dscale(-1.0, side[i / 2]) : side[i / 2];
+        fe__vertex w = fe__cores_support(cores, n);
+        double depth = fe__ddot(n, w.difference);
+        fe_dvec3 point = is_of_frame ? fe__dadd(fe__dsub(w.on_a, w.difference), fe__dscale(depth, n)) : w.on_a;
+        if (depth < found->depth) *found = (fe__penetration){n, fe__maxd(depth, 0.0), point, point};
+    }
+}
+
+double fe__curved_depth(const fe__approach *s, fe_dvec3 *way_out, fe__core_gap *gap)
+{
+    static const fe__axes own = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    fe__cores cores = cores_at(s, s->position);
+    fe__gjk gjk;
+    fe__gjk_distance_closely(&cores, &gjk);
+    fe__penetration p = fe__epa_depth(&cores, &gjk);
+    if (s->frame_kind != FE_CORE_TRIANGLE) try_sides(s->frame_form->type, &own, 1, &cores, &p);
+    try_sides(s->other_form->type, &s->axes, 0, &cores, &p);
+    *way_out = p.normal, gap->on_frame = p.on_a;
+    return p.depth;
 }
 
 static fe_dvec3 nearest_side(const fe__approach *s, fe_dvec3 n)

@@ -45,6 +45,7 @@ double fe__stop_gap(const fe__mover *mover)
 {
     return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation));
 }
+double fe__touch_of(const fe__mover *mover) { return FE_SWEEP_TOUCH + ROUNDING * size(mover->position); }
 
 // 1: the mover gives the frame
 static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approach *s)
@@ -66,7 +67,7 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
         fe__core_half(still, s->frame_half), fe__core_half(mover->form, s->other_half);
         s->axes = *m, s->position = mover->position, s->translation = mover->translation;
     }
-    s->gap = fe__stop_gap(mover);
+    s->gap = fe__stop_gap(mover), s->touch = fe__touch_of(mover);
     return swapped;
 }
 
@@ -91,7 +92,7 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
     if (fe__is_curved_pair(s)) {
         fe__curved_gap_of(s, s->position, &o.gap);
         if (!(o.gap.distance > 0.0)) {
-            o.depth = fe__curved_depth(s, &o.way_out) + s->radius;
+            o.depth = fe__curved_depth(s, &o.way_out, &o.gap) + s->radius;
             return o;
         }
     } else if (s->other_kind != FE_CORE_BOX)
@@ -108,10 +109,11 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
 
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 {
-    if (fe__form_is_unbounded(still)) return fe__height_over_plane(still, mover) <= 0.0;
+    if (fe__form_is_unbounded(still)) return fe__height_over_plane(still, mover) < -fe__touch_of(mover);
     fe__approach s;
     (void)set_up(still, mover, &s);
-    return fe__approach_overlap(&s).depth >= 0.0;
+    fe__core_overlap o = fe__approach_overlap(&s);
+    return fe__is_inside(&s, &o);
 }
 
 // ---- sweeps --------------------------------------------------------------------------------------------------------
@@ -143,8 +145,30 @@ static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, dou
     return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, 1.0, &t, &gap);
 }
 
+// What touches at the start is met at once, or never: of convex forms that overlap later on the way, those that touch
+// overlap from there on. So the way is asked at ever shorter parts, as the overlap may end soon; what slides along or
+// leaves overlaps nowhere.
+static int32_t sweep_from_touch(const fe__approach *s, const fe__core_overlap *start, fe__approach_hit *hit)
+{
+    enum { PARTS = 24 };
+    const double shorter = 0.25, deeper = 2.0; // touches: beyond what the start may have of it
+    fe__approach later = *s;
+    double t = 1.0;
+    for (int32_t i = 0; i < PARTS; ++i, t *= shorter) {
+        later.position = fe__approach_at(s, t);
+        if (!(fe__approach_overlap(&later).depth > deeper * s->touch)) continue;
+        fe_dvec3 point = s->other_kind == FE_CORE_BOX && !fe__is_curved_pair(s)
+                             ? fe__boxes_touching_point(s, start->way_out)
+                             : start->gap.on_frame;
+        *hit = (fe__approach_hit){0.0, start->way_out, point};
+        return 1;
+    }
+    return 0;
+}
+
 int32_t fe__approach_sweep(const fe__approach *s, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit)
 {
+    if (overlap->depth >= -s->touch) return sweep_from_touch(s, overlap, hit);
     if (fe__is_curved_pair(s)) return fe__curved_sweep(s, &overlap->gap, limit, hit);
     return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, &overlap->gap, limit, hit);
 }
@@ -172,13 +196,14 @@ fe_dvec3 fe__point_of_plane(const fe__form *plane, fe_dvec3 unit, const fe__move
 static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
     fe_dvec3 n = fe__widen(plane->normal), unit = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
-    double height = fe__height_over_plane(plane, mover), rate = fe__ddot(unit, mover->translation);
+    double height = fe__height_over_plane(plane, mover), rate = fe__ddot(unit, mover->translation),
+           touch = fe__touch_of(mover);
     *hit = (fe__sweep_hit){.normal = unit, .point = mover->position, .triangle = -1};
-    if (height <= 0.0) {
+    if (height < -touch) {
         hit->inside = 1, hit->depth = -height;
         return 1;
     }
-    if (!(rate < 0.0) || height > -rate) return 0;
+    if (!(rate < 0.0) || height > -rate || (height <= touch && !(-rate > 2.0 * touch))) return 0;
     hit->t = fe__maxd((height - fe__stop_gap(mover)) / -rate, 0.0);
     if (!(hit->t <= limit)) return 0;
     fe__mover stopped = *mover;
@@ -249,7 +274,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
         return met;
     }
     fe__core_overlap o = fe__approach_overlap(&s);
-    if (o.depth >= 0.0) {
+    if (fe__is_inside(&s, &o)) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
         *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1, .triangle = -1};
         if (fe__form_is_hull(still)) hit->triangle = fe__hull_facing(still->hull, out);

@@ -91,7 +91,7 @@ double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
         double middle;
         if (!separating_axis(s, i, &n)) continue;
         double e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle, below = e - fe__absd(centre);
-        if (below < 0.0) return below;
+        if (below < -s->touch) return below;
         if (!(below < depth)) continue;
         depth = below;
         *way_out = centre < 0.0 ? fe__dscale(-1.0, n) : n;
@@ -209,14 +209,15 @@ typedef struct passage {
     fe_dvec3 normal;     // of the face entered
 } passage;
 
-// 0: outside of this slab for good, or after leaving another.
+// 0: outside of this slab for good, or after leaving another. What comes in by no more than a touch is outside.
 static int32_t clip_to_slab(const fe__approach *s, fe_dvec3 n, passage *p)
 {
     double middle, e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle,
                    rate = fe__ddot(n, s->translation);
     if (rate > 0.0) n = fe__dscale(-1.0, n), centre = -centre, rate = -rate; // n against the motion
-    if (rate == 0.0) return fe__absd(centre) <= e;
-    double enter = (centre - e) / -rate, leave = (centre + e) / -rate;
+    double within = fe__maxd(e - s->touch, 0.0);
+    if (rate == 0.0) return fe__absd(centre) <= within;
+    double enter = (centre - within) / -rate, leave = (centre + within) / -rate;
     if (enter > p->enter) p->enter = enter, p->normal = n;
     p->stop = fe__maxd(p->stop, (centre - e - s->gap) / -rate);
     p->leave = fe__mind(p->leave, leave);
@@ -236,4 +237,9 @@ int32_t fe__boxes_sweep(const fe__approach *s, double limit, fe__approach_hit *h
     hit->normal = p.normal;
     hit->point = touching_point(s, fe__dadd(s->position, fe__dscale(hit->t, s->translation)), p.normal);
     return 1;
+}
+
+fe_dvec3 fe__boxes_touching_point(const fe__approach *s, fe_dvec3 normal)
+{
+    return touching_point(s, s->position, normal);
 }

@@ -43,7 +43,7 @@ fe__field_search fe__field_search_of(const fe__ground *surface, const fe__mover 
     fe__core_half(mover->form, p->other_half);
     p->axes = mover->axes, p->position = mover->position, p->translation = mover->translation;
     p->radius = (double)mover->form->radius;
-    p->gap = fe__stop_gap(mover);
+    p->gap = fe__stop_gap(mover), p->touch = fe__touch_of(mover);
     return s;
 }
 
@@ -78,7 +78,8 @@ int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
     fe__ground_begin(&walk, surface, &box, mover->position);
     for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe__field_take(&s, i);
-        if (fe__approach_overlap(&s.pair).depth >= 0.0) return 1;
+        fe__core_overlap overlap = fe__approach_overlap(&s.pair);
+        if (fe__is_inside(&s.pair, &overlap)) return 1;
     }
     return 0;
 }
@@ -135,7 +136,7 @@ static double core_along(const fe__approach *p, fe_dvec3 m)
     return p->other_half[0] * fe__absd(way.x) + p->other_half[1] * fe__absd(way.y) + p->other_half[2] * fe__absd(way.z);
 }
 
-// Over the plane of the triangle, or under it, until `limit`, by more than any stop
+// Over the plane of the triangle until `limit`, or touching it, or under it by more than any stop
 static int32_t stays_on_one_side(const fe__approach *p, double limit)
 {
     const fe_dvec3 *v = p->vertex, n = p->normal;
@@ -143,6 +144,8 @@ static int32_t stays_on_one_side(const fe__approach *p, double limit)
            spare = p->radius + 2.0 * p->gap;
     double start = height_at(p, 0.0), end = height_at(p, limit), lowest = fe__mind(start, end) - spare,
            highest = fe__maxd(start, end) + spare;
+    // what never comes below the plane slides over it, or leaves it
+    if (fe__mind(start, height_at(p, 1.0)) - reach_across(p, -1.0) >= -p->touch) return 1;
     if (lowest > 0.0) return lowest - core_along(p, fe__dscale(-1.0, n)) > fe__maxd(fe__maxd(b, c), 0.0);
     if (highest < 0.0) return highest + core_along(p, n) < fe__mind(fe__mind(b, c), 0.0);
     return 0;
@@ -174,7 +177,7 @@ static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *
     fe__field_take(s, triangle);
     if (stays_on_one_side(&s->pair, best->t) || passes_beside(&s->pair)) return;
     fe__core_overlap overlap = fe__approach_overlap(&s->pair);
-    if (overlap.depth >= 0.0) {
+    if (fe__is_inside(&s->pair, &overlap)) {
         double depth = fe__field_depth(s);
         if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
         *best = (fe__sweep_hit){.normal = s->pair.normal,

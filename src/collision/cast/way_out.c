@@ -52,7 +52,7 @@ static void gather(fe__field_search *s, overlaps *all)
         all->count += 1;
         fe__field_take(s, i);
         fe__core_overlap o = fe__approach_overlap(&s->pair);
-        if (!(o.depth >= 0.0)) continue;
+        if (!fe__is_inside(&s->pair, &o)) continue;
         all->least = fe__maxd(all->least, o.depth);
         add_way(&all->planes, s->pair.normal, fe__field_depth(s));
         const double rounding = 1e-9; // of a way's length; cores that just touch have none
@@ -97,7 +97,7 @@ static double way_along(const fe__field_search *from, fe_dvec3 direction, double
     for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe__field_take(&s, i);
         fe__core_overlap overlap = fe__approach_overlap(&s.pair);
-        if (overlap.depth >= 0.0) return (double)INFINITY;
+        if (fe__is_inside(&s.pair, &overlap)) return (double)INFINITY;
         if (!fe__approach_sweep(&s.pair, &overlap, first.t, &hit) || !(hit.t < first.t)) continue;
         first = hit;
         is_right = fe__ground_is_two_sided(s.surface) || fe__field_is_met(&s, i, &hit);
