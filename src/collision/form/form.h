@@ -167,13 +167,16 @@ static inline float fe__form_roundness(const fe__form *form)
 // How far below the surface, along the unit normal n (form's frame) on which it is touched, lies what keeps its place
 // when the form rolls, m: of a round one its radius. A rim's circle turns about the y axis: what it touches at stays as
 // deep. To second order in the turn, r s = pivot s^2 with s = |n across the axis|. Where the face is touched, nothing
-// rolls. A cone's side is touched along its length; the middle of it stands for all.
+// rolls. A cone's side is touched along its length, and the axis is farther below it the farther it is from the tip.
+// Within a step the points take along what they bear by as much too far, or not far enough, as their pivot is short or
+// long. So it is that of the point of the side under the centre of mass, 3/2 h from the tip, where a cone that lies is
+// borne: then no moment is left about the line. 3/2 h sin a, tan a = r / 2h, is 3/2 of the thickness.
 static inline float fe__form_pivot(const fe__form *form, fe_vec3 n)
 {
     if (!fe__form_is_curved(form)) return form->radius;
     float across = sqrtf(n.x * n.x + n.z * n.z);
     if (!(across > fe__absf(n.y))) return 0.0f;
-    return (form->type == FE__FORM_CONE ? 0.5f : 1.0f) * form->half.x / across;
+    return form->type == FE__FORM_CONE ? 1.5f * fe__form_thickness(form) : form->half.x / across;
 }
 
 // ---- points --------------------------------------------------------------------------------------------------------
