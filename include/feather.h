@@ -584,7 +584,7 @@ typedef struct fe_world_tuning {
     float hit_event_threshold;   ///< slower impacts make no hit event, m/s, >= 0. Default 1
     float sleep_time;            ///< how long a body must be slow before it may sleep, s, >= 0. Default 0.5
     float speculative_distance;  ///< contacts are made up to this gap, m, 0.001..0.1. Default 0.02
-    float max_linear_speed;      ///< of centres of mass when a step ends, m/s, > 0. Default 4000
+    float max_linear_speed;      ///< m/s, > 0. Default 4000
     int32_t sleep_enabled;       ///< 0: nobody falls asleep, and who sleeps wakes. Default 1
     int32_t continuous_enabled;  ///< 0: fast bodies may pass through thin ones. Default 1
     int32_t warm_start_enabled;  ///< 0: contacts begin each step without the impulses of the last one. Default 1

@@ -142,8 +142,8 @@ static void load(fe__solver *s, const fe__records *of, int32_t first, int32_t co
 
 // ---- gyroscopic torque ----------------------------------------------------------------------------------------------
 // In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the
-// energy and |I w|; two Newton steps from m = w solve it. What two steps leave open may add energy: the result is then
-// shortened to the energy before.
+// energy and |I w|; two Newton steps from m = w solve it. The result is brought to the energy before, of
+// which two steps leave something open, and rounding takes a share in each substep.
 
 // rad/s about a principal axis, two centuries a turn; also of the axes, what they lean. The torque is quadratic in both
 #define LEAST_SPIN 1e-9f
@@ -174,9 +174,13 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
     wide3 d = {half_h * (in.z - in.y), half_h * (in.x - in.z), half_h * (in.y - in.x)};
     wide3 m = newton(w_flush3(newton(w, w, in, d), least), w, in, d);
     wide3 w2 = w_flush3(w_sub(w_add(m, m), w), w_set(FE__LEAST_SPEED));
+    // k = sqrt(before / after) is 1 but for rounding, whose root is more often below 1 than above: so k - 1, of the
+    // difference of the energies, in.(w - w2) (w + w2)
+    wide3 change = w_sub(w2, w), sum = w_add(w2, w);
     wide before = twice_energy(w, in), after = twice_energy(w2, in);
-    wide k = w_choose(w_greater(after, before), w_sqrt(before / after), w_set(1.0f));
-    wide3 change = w_sub(w_scale(k, w2), w);
+    wide gained = in.x * change.x * sum.x + in.y * change.y * sum.y + in.z * change.z * sum.z;
+    wide excess = gained * w_inverse_or_zero(after + w_sqrt(before) * w_sqrt(after));
+    change = w_sub_scaled(change, excess, w2);
     return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
