@@ -203,16 +203,17 @@ class Expander:
             if not set(curve) <= set(forms):
                 raise reader.fail(element, f"curve: of {', '.join(forms)}")
             points = [[forms[form](i / (count - 1)) for form in curve] for i in range(count)]
-            w, x, y, z = normalized(reader.numbers(element, "quat", 4, (1, 0, 0, 0))) if self.has_turn(element) else (1, 0, 0, 0)
+            quat = reader.numbers(element, "quat", 4, (1, 0, 0, 0))
+            if math.hypot(*quat) < 1e-9:
+                raise reader.fail(element, "quat: a direction is needed")
+            w, x, y, z = normalized(quat)
             points = [list(rotate((x, y, z, w), point)) for point in points]
         if not 2 <= len(points) <= MOST_POINTS or any(math.dist(a, b) < 1e-9 for a, b in zip(points, points[1:])):
             raise reader.fail(element, f"a cable has 2 to {MOST_POINTS} points, none at the place of the one before")
         return points
 
-    def has_turn(self, element: Element) -> bool:
-        return math.hypot(*self.reader.numbers(element, "quat", 4, (1, 0, 0, 0))) > 1e-9
-
     def segment(self, geom: Element, length: float, name: str) -> Element:
+        """The form of one body, along its x."""
         made = geom.copy()
         made.attributes["name"] = name
         if made.attributes["type"] == "box":
@@ -223,6 +224,7 @@ class Expander:
         return made
 
     def hang(self, body: Element, joint: Optional[Element], kind: str) -> None:
+        """The joint of one body."""
         name = "J_" + body.attributes["name"].rsplit("B_", 1)[-1]
         name = body.attributes["name"].rsplit("B_", 1)[0] + name
         if kind == "free":
