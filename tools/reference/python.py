@@ -12,7 +12,7 @@ PACKAGE = ROOT / "bindings/python/feather_physics"
 MODULES = {
     "envs": "Draws Task VectorEnv",
     "tasks": "CartPole BallOnPlate Push Walker Ragdoll",
-    "scene": "Scene SceneBody SceneShape SceneMesh SceneJoint SceneFreedom SceneActuator Built",
+    "scene": "Scene SceneBody SceneShape SceneMesh SceneJoint SceneFreedom SceneActuator SceneFrame SceneWarning Built",
     "urdf": "load_urdf save_urdf",
     "mjcf": "load_mjcf save_mjcf",
 }

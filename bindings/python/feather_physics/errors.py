@@ -61,6 +61,19 @@ class DivergedError(FeatherError):
     """A replay went another way than its recording (FE_ERROR_DIVERGED)."""
 
 
+class SceneError(InvalidArgumentError):
+    """What is wrong in a file of a robot, in a mesh of it, or in a scene, with the file and the line. Readers, writers
+    and Scene.build() raise nothing else for what they are given."""
+
+
+class UnsupportedSceneError(SceneError, UnsupportedError):
+    """It is right, and no scene has it."""
+
+
+class SceneVersionError(SceneError, VersionError):
+    """A scene of a newer format."""
+
+
 # ordered by the negative of fe_result
 _flat.set_error_classes(
     (

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Sequence
 
-from .errors import UnsupportedError
+from .errors import UnsupportedSceneError
 from .frames import ORIGIN, Z_TO_Y, Frame, inside, rotate
 from .robot_xml import escaped, row
-from .scene import Scene, SceneActuator, SceneBody, SceneJoint, SceneMesh, SceneShape
+from .scene import Scene
+from .scene_json import check
+from .scene_records import SceneActuator, SceneBody, SceneJoint, SceneMesh, SceneShape
 
 LETTERS = "xyz"
 WORLD = "world"
@@ -63,8 +65,11 @@ def _joints(joint: SceneJoint, frame: Frame, indent: str) -> str:
     if joint.type in ("hinge", "slider", "ball"):
         kind = "slide" if joint.type == "slider" else joint.type
         return _freedom(joint, kind, frame, joint.position, joint.axis, indent)
+    if joint.type == "chain":
+        kinds = {"linear": "slide", "angular": "hinge", "ball": "ball"}
+        return "".join(_freedom(one, kinds[one.axis], frame, one.position, one.direction, indent) for one in joint.freedoms)
     if joint.type != "configurable":
-        raise UnsupportedError(f"save_mjcf: joint {joint.name}: MJCF has no {joint.type!r}")
+        raise UnsupportedSceneError(f"save_mjcf: joint {joint.name}: MJCF has no {joint.type!r}")
     text = ""
     for one in joint.freedoms:
         axis = rotate(joint.rotation, [float(one.axis.endswith(letter)) for letter in LETTERS])
@@ -95,13 +100,12 @@ class _Writer:
         """A body and those within it."""
         frame = Frame(body.position, body.rotation)
         joint = self.hangs.get(body.name)
-        if body.type == "kinematic":
-            raise UnsupportedError(
-                f"save_mjcf: body {body.name}: MJCF has no kinematic bodies with a pose of their own"
-            )
-        text = f'{indent}<body name="{escaped(body.name)}" {_pose(inside(outer, frame))}>\n'
+        mocap = ' mocap="true"' if body.type == "kinematic" else ""
+        if mocap and joint is not None:
+            raise UnsupportedSceneError(f"save_mjcf: body {body.name}: in MJCF no joint moves a kinematic body")
+        text = f'{indent}<body name="{escaped(body.name)}" {_pose(inside(outer, frame))}{mocap}>\n'
         if body.type == "dynamic" and body.mass is None:
-            raise UnsupportedError(f"save_mjcf: body {body.name}: a mass is needed")
+            raise UnsupportedSceneError(f"save_mjcf: body {body.name}: a mass is needed")
         if body.mass is not None:
             at = Frame(body.centre, body.inertia_rotation)
             text += f'{indent}  <inertial {_pose(at)} mass="{body.mass!r}" diaginertia="{row(body.inertia)}"/>\n'
@@ -110,8 +114,16 @@ class _Writer:
         if joint is not None:
             text += _joints(joint, frame, indent + "  ")
         text += "".join(_geom(shape, indent + "  ") for shape in body.shapes)
+        text += self.sites(body.name, indent + "  ")
         text += "".join(self.body(other, frame, indent + "  ") for other in self.within.get(body.name, ()))
         return text + f"{indent}</body>\n"
+
+    def sites(self, body: Optional[str], indent: str) -> str:
+        """The frames of a body."""
+        own = (frame for frame in self.scene.frames if frame.body == body)
+        return "".join(
+            f'{indent}<site name="{escaped(one.name)}" {_pose(Frame(one.position, one.rotation))}/>\n' for one in own
+        )
 
     def loop(self, joint: SceneJoint) -> str:
         """A joint that closes a loop."""
@@ -119,14 +131,14 @@ class _Writer:
         if joint.type == "fixed":
             return f'    <weld name="{escaped(joint.name)}" {names}/>\n'
         if joint.type != "ball":
-            raise UnsupportedError(f"save_mjcf: joint {joint.name}: MJCF closes loops by balls and welds alone")
+            raise UnsupportedSceneError(f"save_mjcf: joint {joint.name}: MJCF closes loops by balls and welds alone")
         body = next(body for body in self.scene.bodies if body.name == joint.b)
         at = inside(Frame(body.position, body.rotation), Frame(joint.position))
         return f'    <connect name="{escaped(joint.name)}" {names} anchor="{row(at.position)}"/>\n'
 
     def text(self) -> str:
         """All of it."""
-        scene, world = self.scene, ""
+        scene, world = self.scene, self.sites(None, "    ") + self.sites(WORLD, "    ")
         for body in self.within.get(None, ()):
             if body.name == WORLD and body.type == "static":
                 world += "".join(_geom(shape, "    ") for shape in body.shapes)
@@ -166,5 +178,9 @@ def _actuator(one: SceneActuator) -> str:
 
 def save_mjcf(scene: Scene) -> str:
     """The text of a scene whose bodies have masses. Loading it gives the scene again, up to rounding; effort and
-    velocity of joints have no place in it."""
-    return _Writer(scene).text()
+    velocity of joints have no place in it. What MJCF has not is a SceneError."""
+    check(scene)
+    try:
+        return _Writer(scene).text()
+    except RecursionError:
+        raise UnsupportedSceneError("save_mjcf: too many bodies hang on one another") from None

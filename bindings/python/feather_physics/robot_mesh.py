@@ -2,104 +2,152 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import struct
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from .errors import InvalidArgumentError, UnsupportedError
-from .frames import Triple, Turn, principal
+from .errors import DegenerateError, SceneError
+from .frames import Triple, Turn, principal, rotate
+from .robot_dae import read_dae
+from .robot_xml import read_file
 from .store import Hull, Mesh, Store
 
 MOST_BYTES, MOST_TRIANGLES = 64 << 20, 1_000_000  # of a file
+MOST_NUMBERS = 3 * 3 * MOST_TRIANGLES  # of its points, were none shared
+MOST_CORNERS = 10_000  # of a face
 MOST_HULL_VERTICES = 255  # what a hull can have
+LEAST_THICKNESS = 0.001  # m
 ELLIPSOID_POINTS = 64
 
 # Points, three numbers each, and triangles, three places of points each
 Triangles = Tuple[List[float], List[int]]
 
-# ---- files
+# ---- files. What they hold counts while they are read, and no message repeats it: a name in a robot's file may lead to
+# any file
 
 
-def _binary_stl(data: bytes) -> List[Triple]:
-    corners: List[Triple] = []
-    for *_, ax, ay, az, bx, by, bz, cx, cy, cz, _ in struct.iter_unpack("<12fH", data[84:]):
-        corners += ((ax, ay, az), (bx, by, bz), (cx, cy, cz))
-    return corners
+def _crowded(file: str) -> SceneError:
+    return SceneError(f"{file}: {MOST_TRIANGLES} triangles are the most")
 
 
-def _point(words: Sequence[str], where: str) -> Triple:
+def _binary_stl(data: bytes, count: int, file: str) -> Triangles:
+    """Each triangle has corners of its own; equal ones become one point."""
+    if count > MOST_TRIANGLES:
+        raise _crowded(file)
+    places: Dict[bytes, int] = {}
+    place = places.setdefault
+    triangles: List[int] = []
+    for at in range(96, 84 + 50 * count, 50):  # 12 bytes each: after the normal the corners
+        triangles += (
+            place(data[at : at + 12], len(places)),
+            place(data[at + 12 : at + 24], len(places)),
+            place(data[at + 24 : at + 36], len(places)),
+        )
+    return list(struct.unpack(f"<{3 * len(places)}f", b"".join(places))), triangles
+
+
+def _point(words: Sequence[bytes], where: str) -> Triple:
     try:
         x, y, z = (float(word) for word in words[:3])
     except ValueError:
-        raise InvalidArgumentError(f"{where}: three numbers are needed, not {' '.join(words)[:60]!r}") from None
+        raise SceneError(f"{where}: three numbers are needed") from None
     return x, y, z
 
 
-def _text_stl(text: str, file: str) -> List[Triple]:
-    corners: List[Triple] = []
-    for line, words in enumerate(map(str.split, text.splitlines()), 1):
-        if words and words[0] == "vertex":
-            corners.append(_point(words[1:], f"{file}:{line}"))
-    return corners
-
-
-def _stl(data: bytes, file: str) -> Triangles:
-    """Each triangle has corners of its own; equal ones become one point."""
-    count = int.from_bytes(data[80:84], "little")
-    if len(data) >= 84 and len(data) == 84 + 50 * count:
-        corners = _binary_stl(data)
-    else:
-        corners = _text_stl(data.decode("ascii", "replace"), file)
-    if not corners or len(corners) % 3:
-        raise InvalidArgumentError(f"{file}: this is no STL with whole triangles")
+def _text_stl(data: bytes, file: str) -> Triangles:
     places: Dict[Triple, int] = {}
-    triangles = [places.setdefault(corner, len(places)) for corner in corners]
+    triangles: List[int] = []
+    for line, text in enumerate(io.BytesIO(data), 1):
+        words = text.split(None, 4)
+        if words and words[0] == b"vertex":
+            corner = _point(words[1:], f"{file}:{line}")
+            triangles.append(places.setdefault(corner, len(places)))
+            if len(triangles) > 3 * MOST_TRIANGLES:
+                raise _crowded(file)
     return [x for point in places for x in point], triangles
 
 
-def _obj(text: str, file: str) -> Triangles:
-    points: List[float] = []
-    triangles: List[int] = []
-    for line, words in enumerate(map(str.split, text.splitlines()), 1):
-        if words and words[0] == "v":
-            points += _point(words[1:], f"{file}:{line}")
-        elif words and words[0] == "f":
-            try:
-                corners = [int(word.split("/")[0]) for word in words[1:]]
-            except ValueError:
-                raise InvalidArgumentError(f"{file}:{line}: a face of {words[1:5]}") from None
-            count = len(points) // 3
-            corners = [c - 1 if c > 0 else count + c for c in corners]  # -1: the last point so far
-            if len(corners) < 3 or min(corners) < 0 or max(corners) >= count:
-                raise InvalidArgumentError(f"{file}:{line}: a face of {words[1:5]}, with {count} points so far")
-            for second, third in zip(corners[1:], corners[2:]):
-                triangles += (corners[0], second, third)
-    if not points:
-        raise InvalidArgumentError(f"{file}: this is no OBJ with points")
+def _stl(data: bytes, file: str) -> Triangles:
+    count = int.from_bytes(data[80:84], "little")
+    is_binary = len(data) >= 84 and len(data) == 84 + 50 * count
+    points, triangles = _binary_stl(data, count, file) if is_binary else _text_stl(data, file)
+    if not triangles or len(triangles) % 3:
+        raise SceneError(f"{file}: this is no STL with whole triangles")
     return points, triangles
 
 
+def _face(words: Sequence[bytes], count: int, where: str) -> List[int]:
+    """The places of its corners, where there are so many points so far."""
+    try:
+        corners = [int(word.split(b"/", 1)[0]) for word in words]
+    except ValueError:
+        corners = []
+    corners = [c - 1 if c > 0 else count + c for c in corners]  # -1: the last point so far
+    if not 3 <= len(corners) <= MOST_CORNERS or min(corners) < 0 or max(corners) >= count:
+        raise SceneError(f"{where}: a face has 3 to {MOST_CORNERS} corners, each one of the {count} points so far")
+    return corners
+
+
+def _obj(data: bytes, file: str) -> Triangles:
+    points: List[float] = []
+    triangles: List[int] = []
+    for line, text in enumerate(io.BytesIO(data), 1):
+        words = text.split(None, MOST_CORNERS + 1)
+        if words and words[0] == b"v":
+            points += _point(words[1:4], f"{file}:{line}")
+        elif words and words[0] == b"f":
+            corners = _face(words[1:], len(points) // 3, f"{file}:{line}")
+            for second, third in zip(corners[1:], corners[2:]):
+                triangles += (corners[0], second, third)
+        if len(triangles) > 3 * MOST_TRIANGLES or len(points) > MOST_NUMBERS:
+            raise _crowded(file)
+    if not points:
+        raise SceneError(f"{file}: this is no OBJ with points")
+    return points, triangles
+
+
+def _msh(data: bytes, file: str) -> Triangles:
+    """MuJoCo's own: how many points, normals, texture coordinates and triangles; then these, the last as integers."""
+    counts = struct.unpack("<4i", data[:16]) if len(data) >= 16 else (-1,) * 4
+    points, normals, textures, faces = counts
+    if min(counts) < 0 or len(data) != 16 + 12 * points + 12 * normals + 8 * textures + 12 * faces or points < 4:
+        raise SceneError(f"{file}: this is no MSH with points")
+    if faces > MOST_TRIANGLES:
+        raise _crowded(file)
+    triangles = list(struct.unpack(f"<{3 * faces}i", data[len(data) - 12 * faces :]))
+    if triangles and not 0 <= min(triangles) <= max(triangles) < points:
+        raise SceneError(f"{file}: a triangle has a corner that is none of the points")
+    return list(struct.unpack_from(f"<{3 * points}f", data, 16)), triangles
+
+
+READERS: Dict[str, Callable[[bytes, str], Triangles]] = {".stl": _stl, ".obj": _obj, ".msh": _msh, ".dae": lambda data, file: read_dae(data, file, MOST_TRIANGLES)}
+
+
 def read_mesh(file: str, scale: Sequence[float]) -> Triangles:
-    """Of an STL or an OBJ, times the scale along each axis."""
+    """Of an STL, an OBJ or a COLLADA file, times the scale along each axis."""
     kind = os.path.splitext(file)[1].lower()
-    if kind not in (".stl", ".obj"):
-        raise UnsupportedError(f"{file}: STL and OBJ are read")
-    with open(file, "rb") as stream:
-        data = stream.read(MOST_BYTES + 1)
+    if kind not in READERS:
+        raise SceneError(f"{file}: STL, OBJ, DAE and MSH are read")
+    try:
+        data = read_file(file, MOST_BYTES)
+    except OSError as error:
+        raise SceneError(f"{file}: {error.strerror}") from None
     if len(data) > MOST_BYTES:
-        raise InvalidArgumentError(f"{file}: {MOST_BYTES} bytes are the most")
-    points, triangles = _stl(data, file) if kind == ".stl" else _obj(data.decode("utf-8", "replace"), file)
-    if len(triangles) > 3 * MOST_TRIANGLES:
-        raise InvalidArgumentError(f"{file}: {MOST_TRIANGLES} triangles are the most")
+        raise SceneError(f"{file}: {MOST_BYTES} bytes are the most")
+    points, triangles = READERS[kind](data, file)
     return scaled(points, triangles, scale, file)
 
 
 def scaled(points: Sequence[float], triangles: Sequence[int], scale: Sequence[float], what: str) -> Triangles:
     """Times the scale along each axis; a mirrored mesh keeps its outside."""
-    grown = [x * scale[k % 3] for k, x in enumerate(points)]
+    grown = list(points)
+    for k in range(3):
+        if scale[k] != 1:
+            grown[k::3] = [x * scale[k] for x in grown[k::3]]
     if not all(map(math.isfinite, grown)) or 0 in scale:
-        raise InvalidArgumentError(f"{what}: points and scale are finite, the scale is not 0")
+        raise SceneError(f"{what}: points and scale are finite, the scale is not 0")
     turned = list(triangles)
     if scale[0] * scale[1] * scale[2] < 0:
         turned[1::3], turned[2::3] = turned[2::3], turned[1::3]
@@ -108,48 +156,63 @@ def scaled(points: Sequence[float], triangles: Sequence[int], scale: Sequence[fl
 
 def find_file(name: str, file: Optional[str], folders: Sequence[Any]) -> Optional[str]:
     """Of a name in a file of robots: "package://robot/mesh.stl" in a folder called robot that one of `folders` holds, or
-    the file itself lies within; others from the folder of the file, then from `folders`. None: it is not there."""
+    the file itself lies within; others from the folder of the file, then from `folders`. Where folders are given, it
+    lies in one of them or in that of the file, links followed. A text (file is None) without folders reads no file.
+    None: it is not there."""
     near = [] if file is None else [os.path.dirname(os.path.abspath(file))]
-    if name.startswith("package://"):
-        rest = name[len("package://") :]
+    given = [os.path.abspath(os.fspath(folder)) for folder in folders]
+    if name.startswith(("package://", "model://")):
+        rest = name.split("://", 1)[1]
         above = list(near)
         while above and os.path.dirname(above[-1]) != above[-1]:
             above.append(os.path.dirname(above[-1]))
-        places = [*map(os.fspath, folders), *above]
+        places = [*given, *above]
     else:
         rest = name[len("file://") :] if name.startswith("file://") else name
-        places = [*near, *map(os.fspath, folders)]
-    found = (os.path.join(place, rest) for place in places or [""])
-    return next((path for path in found if os.path.isfile(path)), None)
+        places = [*near, *given]
+    if "\0" in rest:
+        return None
+    for path in (os.path.join(place, rest) for place in places):
+        if os.path.isfile(path) and (not given or _is_within(path, [*given, *near])):
+            return path
+    return None
+
+
+def _is_within(path: str, folders: Sequence[str]) -> bool:
+    real = os.path.realpath(path)
+    return any(os.path.commonpath([real, folder]) == folder for folder in (os.path.realpath(one) for one in folders))
 
 
 # ---- masses
 
 
 def _of_triangles(points: Sequence[float], triangles: Sequence[int]) -> Optional[Tuple[float, Triple, Triple, Turn]]:
-    """By tetrahedra from the first point to each triangle (Blow and Binstock, "How to find the inertia tensor", 2004)."""
-    o = points[:3]
-    p = [(points[k] - o[0], points[k + 1] - o[1], points[k + 2] - o[2]) for k in range(0, len(points), 3)]
-    volume, first, second = 0.0, [0.0] * 3, [[0.0] * 3 for _ in range(3)]
-    for k in range(0, len(triangles), 3):
-        a, b, c = (p[corner] for corner in triangles[k : k + 3])
-        n = (b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0])
-        part = (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]) / 6
-        volume += part
-        s = [a[i] + b[i] + c[i] for i in range(3)]
-        for i in range(3):
-            first[i] += part * s[i] / 4
-            for j in range(3):
-                second[i][j] += part * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) / 20
+    """By tetrahedra from the first point to each triangle (Blow and Binstock, "How to find the inertia tensor", 2004):
+    of each its volume v times the sums of x, and of x y for each pair of axes, over its corners and their sum."""
+    ox, oy, oz = points[:3]
+    p = [(x - ox, y - oy, z - oz) for x, y, z in zip(points[::3], points[1::3], points[2::3])]
+    volume = mx = my = mz = xx = yy = zz = xy = xz = yz = 0.0
+    for i, j, k in zip(triangles[::3], triangles[1::3], triangles[2::3]):
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = p[i], p[j], p[k]
+        v = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        sx, sy, sz = ax + bx + cx, ay + by + cy, az + bz + cz
+        volume, mx, my, mz = volume + v, mx + v * sx, my + v * sy, mz + v * sz
+        xx += v * (sx * sx + ax * ax + bx * bx + cx * cx)
+        yy += v * (sy * sy + ay * ay + by * by + cy * cy)
+        zz += v * (sz * sz + az * az + bz * bz + cz * cz)
+        xy += v * (sx * sy + ax * ay + bx * by + cx * cy)
+        xz += v * (sx * sz + ax * az + bx * bz + cx * cz)
+        yz += v * (sy * sz + ay * az + by * bz + cy * cz)
     if not abs(volume) > 0:
         return None
-    m = [x / volume for x in first]
-    spread = [[second[i][j] / volume - m[i] * m[j] for j in range(3)] for i in range(3)]
+    m = (mx / (4 * volume), my / (4 * volume), mz / (4 * volume))
+    second = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    spread = [[second[i][j] / (20 * volume) - m[i] * m[j] for j in range(3)] for i in range(3)]
     trace = sum(spread[i][i] for i in range(3))
     moments, turn = principal([[trace * (i == j) - spread[i][j] for j in range(3)] for i in range(3)])
     if not min(moments) > 0:
         return None
-    return abs(volume), (m[0] + o[0], m[1] + o[1], m[2] + o[2]), moments, turn
+    return abs(volume) / 6, (m[0] + ox, m[1] + oy, m[2] + oz), moments, turn
 
 
 def mass_of(points: Sequence[float], triangles: Sequence[int]) -> Optional[Tuple[float, Triple, Triple, Turn]]:
@@ -170,9 +233,27 @@ def _rows(points: Sequence[float]) -> List[Sequence[float]]:
 
 
 def hull_of(store: Any, points: Sequence[float]) -> Hull:
-    """What a dynamic body collides as, in a store or that of a world."""
-    made: Hull = store.create_hull(_rows(points), max_vertices=MOST_HULL_VERTICES)
+    """What a dynamic body collides as, in a store or that of a world. What is thinner than a hull may be, a plate or a
+    rod, gets LEAST_THICKNESS."""
+    try:
+        made: Hull = store.create_hull(_rows(points), max_vertices=MOST_HULL_VERTICES)
+    except DegenerateError:
+        made = store.create_hull(_rows(_thickened(points)), max_vertices=MOST_HULL_VERTICES)
     return made
+
+
+def _thickened(points: Sequence[float]) -> List[float]:
+    """Along each principal axis of the points along which they are thin, each twice: half LEAST_THICKNESS to both sides."""
+    rows = _rows(points)
+    middle = [sum(p[k] for p in rows) / len(rows) for k in range(3)]
+    spread = [[sum((p[i] - middle[i]) * (p[j] - middle[j]) for p in rows) for j in range(3)] for i in range(3)]
+    _, turn = principal(spread)
+    for axis in (rotate(turn, [float(i == k) for i in range(3)]) for k in range(3)):
+        along = [sum(a * b for a, b in zip(axis, p)) for p in rows]
+        if max(along) - min(along) < LEAST_THICKNESS:
+            half = 0.5 * LEAST_THICKNESS
+            rows = [[x + s * a for x, a in zip(p, axis)] for p in rows for s in (-half, half)]
+    return [x for p in rows for x in p]
 
 
 def mesh_of(store: Any, points: Sequence[float], triangles: Sequence[int]) -> Mesh:

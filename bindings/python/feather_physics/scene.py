@@ -3,13 +3,12 @@ and built in any number of worlds."""
 
 from __future__ import annotations
 
-import json
 import math
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from ._flat import Quat, Vec3
-from .errors import InvalidArgumentError, VersionError
+from .errors import DegenerateError, InvalidArgumentError, SceneError, UnsupportedError
 from .frames import (
     NO_TURN,
     ORIGIN,
@@ -25,149 +24,58 @@ from .frames import (
     rotate,
 )
 from .objects import Body, Joint
-from .records import Box, Capsule, Cylinder, Geometry, MassData, Material, Plane, Sphere
+from .records import Box, Capsule, Cylinder, MassData, Material, Plane, Sphere
 from .robot_mesh import hull_of, mesh_of
+from .robot_xml import SceneWarning
+from .scene_json import check, fill, json_of
+from .scene_records import (
+    SceneActuator,
+    SceneBody,
+    SceneFrame,
+    SceneFreedom,
+    SceneJoint,
+    SceneMesh,
+    SceneShape,
+)
 from .store import Hull, Mesh
 from .world import World
 
-FORMAT = "feather-scene"
-VERSION = 1
-
-# ---- records
-
-
-@dataclass
-class SceneMesh:
-    """Points, m, three numbers each, and triangles, three places of points each, counterclockwise seen from outside.
-    Without triangles the hull of the points counts. `file`: where it is from, and by what it was scaled, as a URDF
-    has it."""
-
-    name: str
-    points: List[float]
-    triangles: List[int] = field(default_factory=list)
-    file: str = ""
-    scale: Triple = (1.0, 1.0, 1.0)
-
+# What a world takes at least (the ranges of feather.h): m, kg, kg m2. A scene may hold less, and is built with these
+LEAST_LENGTH, LEAST_MASS, LEAST_INERTIA = 1e-3, 1e-9, 1e-18
+FORMS: Dict[str, Any] = {"box": Box, "sphere": Sphere, "capsule": Capsule, "cylinder": Cylinder, "plane": Plane}
+LINK_SHARE = 0.001  # of a body's mass, that each link of a chain between it and its parent carries
 
 @dataclass
-class SceneShape:
-    """A form on a body: "box" (half extents), "sphere" (radius), "capsule", "cylinder" (half height, radius; along Y),
-    "plane" (no size, Y is up), on static bodies, or "mesh": one of the scene's, by name, whose triangles count on static
-    bodies, its hull on others."""
-
-    form: str
-    size: List[float]
-    position: Triple = ORIGIN
-    rotation: Turn = NO_TURN
-    density: float = 1000.0
-    friction: Optional[float] = None
-    mesh: str = ""
-
-    def geometry(self) -> Geometry:
-        """What Body.add() takes, but for a mesh."""
-        if self.form == "box":
-            return Box(*self.size)
-        if self.form == "sphere":
-            return Sphere(*self.size)
-        if self.form == "capsule":
-            return Capsule(*self.size)
-        if self.form == "cylinder":
-            return Cylinder(*self.size)
-        if self.form == "plane":
-            return Plane()
-        raise InvalidArgumentError(f"form: box, sphere, capsule, cylinder or plane is needed, not {self.form!r}")
-
-
-@dataclass
-class SceneBody:
-    """A body and where it is. Without a mass that of its shapes counts. Inertia: principal moments, kg m2, about the
-    centre, and their axes."""
-
-    name: str
-    type: str = "dynamic"
-    position: Triple = ORIGIN
-    rotation: Turn = NO_TURN
-    mass: Optional[float] = None
-    centre: Triple = ORIGIN
-    inertia: Triple = ORIGIN
-    inertia_rotation: Turn = NO_TURN
-    shapes: List[SceneShape] = field(default_factory=list)
-
-
-@dataclass
-class SceneFreedom:
-    """One axis along or about which a "configurable" joint moves: "linear_x" ... "angular_z" of its frame."""
-
-    name: str
-    axis: str
-    lower: Optional[float] = None
-    upper: Optional[float] = None
-    damping: float = 0.0
-    friction: float = 0.0
-    stiffness: float = 0.0
-    rest: float = 0.0
-    armature: float = 0.0
-
-
-@dataclass
-class SceneJoint:
-    """A joint of two bodies, None is the world: "fixed", "hinge", "slider", "ball", "planar", "configurable" or "free"
-    (none). The place, the axis and the rotation, which is that of a configurable joint's frame, are the scene's, where
-    the bodies stand. Limits: rad or m, None are none; cone: rad, of a ball; effort: N m or N, velocity: rad/s or m/s,
-    as the file has them; damping: N m s/rad or N s/m; friction: N m or N; stiffness: N m/rad or N/m, of a spring that
-    pulls to `rest`; armature: kg m2, what the motor's rotor adds to the inertia about the axis."""
-
-    name: str
-    type: str
-    a: Optional[str]
-    b: str
-    position: Triple
-    axis: Triple = (1.0, 0.0, 0.0)
-    lower: Optional[float] = None
-    upper: Optional[float] = None
-    effort: Optional[float] = None
-    velocity: Optional[float] = None
-    damping: float = 0.0
-    friction: float = 0.0
-    stiffness: float = 0.0
-    rest: float = 0.0
-    armature: float = 0.0
-    cone: Optional[float] = None
-    rotation: Turn = NO_TURN
-    freedoms: List[SceneFreedom] = field(default_factory=list)
-
-
-@dataclass
-class SceneActuator:
-    """A drive of a joint, or of a configurable joint's freedom, by name. A "motor" has the torque or force gear * u; a
-    "position" gain * (u - q), a "velocity" gain * (u - v) for q, v = gear times coordinate and rate, times gear. u and
-    the force stay within their limits, None are none. A scene keeps them; the program drives."""
-
-    name: str
-    type: str
-    joint: str
-    gear: float = 1.0
-    gain: float = 1.0
-    lower: Optional[float] = None
-    upper: Optional[float] = None
-    force_lower: Optional[float] = None
-    force_upper: Optional[float] = None
-
-
 class Built:
-    """What a scene became in a world: `bodies` and `joints` by name; `assets` of its store, by the name of the mesh and
-    whether they are triangles."""
+    """What a scene became in a world: `bodies` and `joints` by name, those of a chain by the names of its freedoms;
+    `assets` of its store, by the name of the mesh and whether they are triangles; `links`: the bodies within chains;
+    `frames`: of which body, None is the world, and where on it."""
 
-    def __init__(self) -> None:
-        self.bodies: Dict[str, Body] = {}  # by name
-        self.joints: Dict[str, Joint] = {}  # by name
-        self.assets: Dict[Tuple[str, bool], Union[Hull, Mesh]] = {}  # by mesh, and whether they are triangles
+    bodies: Dict[str, Body] = field(default_factory=dict)
+    joints: Dict[str, Joint] = field(default_factory=dict)
+    assets: Dict[Tuple[str, bool], Union[Hull, Mesh]] = field(default_factory=dict)
+    links: List[Body] = field(default_factory=list)
+    frames: Dict[str, Tuple[Optional[Body], Frame]] = field(default_factory=dict)
+
+    def frame(self, name: str) -> Frame:
+        """The pose that a frame or a body has now, in the world."""
+        if name in self.frames:
+            body, at = self.frames[name]
+        elif name in self.bodies:
+            body, at = self.bodies[name], Frame()
+        else:
+            raise SceneError(f"frame: there is no frame or body {name!r}")
+        return at if body is None else _pose(body).then(at)
+
+
+def _pose(body: Body) -> Frame:
+    return Frame(tuple(body.position), tuple(body.rotation))  # type: ignore[arg-type]
 
 
 @dataclass
 class Scene:
-    """Bodies, joints and meshes with names; pairs of bodies that do not collide; the gravity that the file asks for, m/s2.
-    `warnings`: what the file has and the scene has not, with the file and the line."""
+    """Bodies, joints, frames and meshes with names; pairs of bodies that do not collide; the gravity that the file asks
+    for, m/s2. `warnings`: what the file has and the scene has not, as (file, line, kind, sentence)."""
 
     name: str = ""
     bodies: List[SceneBody] = field(default_factory=list)
@@ -176,7 +84,18 @@ class Scene:
     meshes: List[SceneMesh] = field(default_factory=list)
     excluded: List[Tuple[str, str]] = field(default_factory=list)
     gravity: Optional[Triple] = None
-    warnings: List[str] = field(default_factory=list)
+    warnings: List[SceneWarning] = field(default_factory=list)
+    frames: List[SceneFrame] = field(default_factory=list)
+
+    def frame(self, name: str) -> Frame:
+        """The pose of a frame or a body where the scene's bodies stand."""
+        named = next((one for one in self.frames if one.name == name), SceneFrame(name, name))
+        if named.body is None:
+            return Frame(named.position, named.rotation)
+        for body in self.bodies:
+            if body.name == named.body:
+                return Frame(body.position, body.rotation).then(Frame(named.position, named.rotation))
+        raise SceneError(f"frame: there is no frame or body {named.body!r}")
 
     # ---- into a world
 
@@ -185,61 +104,59 @@ class Scene:
     ) -> Built:
         """Makes its bodies and joints in a world, moved and turned; nothing remains of it when something is refused.
         Further options are those of Body.add(), for all shapes: group=-1, layer... Gravity stays the world's."""
-        built = Built()
+        check(self)
+        built, at = Built(), Frame(tuple(position), normalized(rotation))  # type: ignore[arg-type]
+        what = ""
         try:
             for body in self.bodies:
-                built.bodies[body.name] = self._make_body(world, body, built, position, rotation, shape)
+                what = f"body {body.name!r}"
+                built.bodies[body.name] = self._make_body(world, body, built, at, shape)
             for a, b in self.excluded:
-                for name in (a, b):
-                    if name not in built.bodies:
-                        raise InvalidArgumentError(f"build: excluded: there is no body {name!r}")
                 world.ignore_collision(built.bodies[a], built.bodies[b], True)
             for joint in self.joints:
-                if joint.type != "free":
-                    built.joints[joint.name] = _make_joint(world, joint, built, position, rotation)
-        except BaseException:
-            world.destroy_bodies(list(built.bodies.values()))  # their joints go with them
+                what = f"joint {joint.name!r}"
+                _make_joints(world, joint, built, at, self.bodies)
+        except BaseException as error:
+            world.destroy_bodies([*built.bodies.values(), *built.links])  # their joints go with them
             for asset in built.assets.values():
                 asset.destroy()
+            if isinstance(error, (InvalidArgumentError, DegenerateError, UnsupportedError)):
+                raise SceneError(f"build: {what}: {error}") from None
             raise
+        for frame in self.frames:
+            held, own = built.bodies.get(frame.body or ""), Frame(frame.position, frame.rotation)
+            built.frames[frame.name] = held, own if held is not None else at.then(own)
         return built
 
-    def _make_body(
-        self,
-        world: World,
-        body: SceneBody,
-        built: Built,
-        position: Sequence[float],
-        rotation: Sequence[float],
-        options: Any,
-    ) -> Body:
-        place, turn = add(position, rotate(rotation, body.position)), normalized(multiply(rotation, body.rotation))
-        made = world.create_body(body.type, position=place, rotation=turn)
+    def _make_body(self, world: World, body: SceneBody, built: Built, at: Frame, options: Any) -> Body:
+        place = at.then(Frame(body.position, body.rotation))
+        made = world.create_body(body.type, position=place.position, rotation=place.rotation)
         try:
             for shape in body.shapes:
                 settings: Dict[str, Any] = {
                     "position": shape.position,
-                    "rotation": shape.rotation,
+                    "rotation": normalized(shape.rotation),
                     "density": shape.density,
                     **options,
                 }
                 if shape.friction is not None:
                     settings["material"] = Material(static_friction=shape.friction, dynamic_friction=shape.friction)
                 is_mesh = shape.form == "mesh"
-                form = self._asset(world, shape.mesh, body.type == "static", built) if is_mesh else shape.geometry()
+                size = [max(x, LEAST_LENGTH) for x in shape.size]
+                form = (
+                    self._asset(world, shape.mesh, body.type != "dynamic", built) if is_mesh else FORMS[shape.form](*size)
+                )
                 made.add(form, **settings)
             if body.mass is not None and body.type == "dynamic":
                 moments, axes = _inertia(body, self.joints)
-                made.mass_data = MassData(body.mass, Vec3(body.centre), Vec3(moments), Quat(axes))
+                _set_mass(made, body.mass, body.centre, moments, axes)
         except BaseException:
             made.destroy()
             raise
         return made
 
     def _asset(self, world: World, name: str, is_static: bool, built: Built) -> Union[Hull, Mesh]:
-        mesh = next((mesh for mesh in self.meshes if mesh.name == name), None)
-        if mesh is None:
-            raise InvalidArgumentError(f"build: there is no mesh {name!r}")
+        mesh = next(mesh for mesh in self.meshes if mesh.name == name)
         key = (name, is_static and bool(mesh.triangles))
         if key not in built.assets:
             built.assets[key] = mesh_of(world, mesh.points, mesh.triangles) if key[1] else hull_of(world, mesh.points)
@@ -249,112 +166,14 @@ class Scene:
 
     def to_json(self) -> str:
         """As text, in which every number is exact."""
-        record: Dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": self.name}
-        record["bodies"] = [asdict(body) for body in self.bodies]
-        record["joints"] = [asdict(joint) for joint in self.joints]
-        record["meshes"] = [asdict(mesh) for mesh in self.meshes]
-        record["actuators"] = [asdict(actuator) for actuator in self.actuators]
-        record["excluded"], record["gravity"] = self.excluded, self.gravity
-        return json.dumps(record, indent=1, allow_nan=False)
+        return json_of(self)
 
     @classmethod
     def from_json(cls, text: str) -> "Scene":
-        """What to_json() wrote. An InvalidArgumentError names what is wrong, a VersionError a newer format."""
-        try:
-            record = json.loads(text)
-        except ValueError as error:
-            raise InvalidArgumentError(f"from_json: {error}") from None
-        if not isinstance(record, dict) or record.get("format") != FORMAT:
-            raise InvalidArgumentError("from_json: this is no scene")
-        if record.get("version") != VERSION:
-            raise VersionError(f"from_json: version {record.get('version')}, {VERSION} is known")
-        scene = cls(_text(record.get("name", ""), "name"))
-        for item in _list(record.get("bodies"), "bodies"):
-            body = _record(SceneBody, item, "bodies")
-            body.shapes = [
-                _record(SceneShape, shape, f"shapes of {body.name}") for shape in _list(body.shapes, "shapes")
-            ]
-            scene.bodies.append(body)
-        for item in _list(record.get("joints"), "joints"):
-            joint = _record(SceneJoint, item, "joints")
-            freedoms = f"freedoms of {joint.name}"
-            joint.freedoms = [_record(SceneFreedom, each, freedoms) for each in _list(joint.freedoms, freedoms)]
-            scene.joints.append(joint)
-        scene.actuators = [
-            _record(SceneActuator, item, "actuators") for item in _list(record.get("actuators", []), "actuators")
-        ]
-        scene.meshes = [_mesh(item) for item in _list(record.get("meshes", []), "meshes")]
-        for pair in _list(record.get("excluded", []), "excluded"):
-            if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(name, str) for name in pair):
-                raise InvalidArgumentError(f"from_json: excluded: two names are needed, not {pair!r}")
-            scene.excluded.append((pair[0], pair[1]))
-        gravity = record.get("gravity")
-        if gravity is not None:
-            if not isinstance(gravity, list) or len(gravity) != 3 or not all(map(_number, gravity)):
-                raise InvalidArgumentError(f"from_json: gravity is {gravity!r}")
-            scene.gravity = (float(gravity[0]), float(gravity[1]), float(gravity[2]))
-        return scene
-
-
-def _list(value: Any, what: str) -> List[Any]:
-    if not isinstance(value, list):
-        raise InvalidArgumentError(f"from_json: {what}: a list is needed")
-    return value
-
-
-def _text(value: Any, what: str) -> str:
-    if not isinstance(value, str):
-        raise InvalidArgumentError(f"from_json: {what}: a text is needed")
-    return value
-
-
-TEXTS = {"name", "type", "form", "b", "mesh", "file"}  # and the axis of a freedom, the joint of an actuator
-LISTS = {"shapes", "freedoms", "points", "triangles"}
-LENGTHS = {"scale": 3, "position": 3, "rotation": 4, "centre": 3, "inertia": 3, "inertia_rotation": 4, "axis": 3}
-MAY_LACK = {"mass", "friction", "lower", "upper", "effort", "velocity", "cone", "force_lower", "force_upper"}
-
-
-def _number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _record(kind: Any, item: Any, what: str) -> Any:
-    known = {each.name for each in fields(kind)}
-    if not isinstance(item, dict) or set(item) - known:
-        raise InvalidArgumentError(
-            f"from_json: {what}: {sorted(set(item) - known) if isinstance(item, dict) else item!r}"
-        )
-    for name, value in item.items():
-        is_text = name in TEXTS or (kind, name) in ((SceneFreedom, "axis"), (SceneActuator, "joint"))
-        if is_text:
-            good = isinstance(value, str)
-        elif name == "a":
-            good = value is None or isinstance(value, str)
-        elif name in LENGTHS or name == "size":
-            good = isinstance(value, list) and all(map(_number, value)) and len(value) == LENGTHS.get(name, len(value))
-        elif name in LISTS:
-            good = True
-        else:
-            good = _number(value) or (value is None and name in MAY_LACK)
-        if not good:
-            raise InvalidArgumentError(f"from_json: {what}: {name} is {value!r}")
-        if name in LENGTHS and not is_text:
-            item[name] = tuple(float(x) for x in value)
-    try:
-        return kind(**item)
-    except TypeError as error:
-        raise InvalidArgumentError(f"from_json: {what}: {error}") from None
-
-
-def _mesh(item: Any) -> SceneMesh:
-    mesh: SceneMesh = _record(SceneMesh, item, "meshes")
-    points, triangles = _list(mesh.points, "points"), _list(mesh.triangles, "triangles")
-    if not points or len(points) % 3 or not all(map(_number, points)):
-        raise InvalidArgumentError(f"from_json: points of {mesh.name}: three numbers each are needed")
-    places = range(len(points) // 3)
-    if len(triangles) % 3 or not all(type(corner) is int and corner in places for corner in triangles):
-        raise InvalidArgumentError(f"from_json: triangles of {mesh.name}: three places of points each are needed")
-    return mesh
+        """What to_json() wrote. A SceneError names what is wrong; of a newer format it is a VersionError too."""
+        made = cls()
+        fill(made, text)
+        return made
 
 
 # ---- bodies and joints in a world
@@ -367,13 +186,19 @@ def _inertia(body: SceneBody, joints: Sequence[SceneJoint]) -> Tuple[Triple, Tur
         if joint.b != body.name:
             continue
         if joint.armature > 0 and joint.type == "hinge":
-            rotors.append((joint.armature, joint.axis))
+            rotors.append((joint.armature, normalized(joint.axis)))
+        if joint.type == "chain" and joint.freedoms[-1].axis == "angular":  # the others turn its links
+            rotors.append((joint.freedoms[-1].armature, normalized(joint.freedoms[-1].direction)))
         for freedom in joint.freedoms:
-            if freedom.armature > 0 and freedom.axis.startswith("angular"):
+            if freedom.armature > 0 and freedom.axis.startswith("angular_"):
                 rotors.append((freedom.armature, rotate(joint.rotation, UNITS[freedom.axis[-1]])))
+    return _with_rotors(body, rotors)
+
+
+def _with_rotors(body: SceneBody, rotors: Sequence[Tuple[float, Sequence[float]]]) -> Tuple[Triple, Turn]:
     if not rotors:
         return body.inertia, body.inertia_rotation
-    x, y, z, w = body.rotation
+    x, y, z, w = normalized(body.rotation)
     tensor = matrix_of(body.inertia, body.inertia_rotation)
     for armature, axis in rotors:
         a = rotate((-x, -y, -z, w), axis)
@@ -392,8 +217,8 @@ UNITS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 AXES = [f"{kind}_{letter}" for kind in ("linear", "angular") for letter in UNITS]
 
 
-def _axis(one: Any) -> Dict[str, Any]:
-    """The settings of one axis, of a joint or a freedom."""
+def _axis(one: Any, is_slider: bool = False) -> Dict[str, Any]:
+    """The settings of one axis, of a joint or a freedom. Whole turns of a spring's rest do not count."""
     limited = one.lower is not None and one.upper is not None
     settings: Dict[str, Any] = {"motion": "limited" if limited else "free"}
     if limited:
@@ -402,11 +227,23 @@ def _axis(one: Any) -> Dict[str, Any]:
         settings.update(motor_max=one.friction)  # of a motor that stands
     if one.damping > 0 or one.stiffness > 0:
         settings.update(spring="stiffness", spring_damping=one.damping, spring_stiffness=one.stiffness, target=one.rest)
+    if "target" in settings and abs(one.rest) > math.pi and not is_slider:
+        settings["target"] = math.remainder(one.rest, 2 * math.pi)
     return settings
 
 
+def _set_mass(made: Body, mass: float, centre: Sequence[float], moments: Sequence[float], axes: Sequence[float]) -> None:
+    """At least what a world takes."""
+    made.mass_data = MassData(
+        max(mass, LEAST_MASS),
+        Vec3(centre),
+        Vec3([max(x, LEAST_INERTIA) for x in moments]),
+        Quat(normalized(axes)),
+    )
+
+
 def _make_ball(
-    world: World, joint: SceneJoint, a: Optional[Body], b: Optional[Body], place: Triple, axis: Triple
+    world: World, joint: SceneJoint, a: Optional[Body], b: Body, place: Triple, axis: Triple
 ) -> Joint:
     friction = {"motor_max": joint.friction} if joint.friction > 0 else {}
     if not joint.damping and not joint.stiffness:
@@ -420,44 +257,70 @@ def _make_ball(
 
 
 def _make_configurable(world: World, joint: SceneJoint, a: Optional[Body], b: Body, place: Triple, turn: Turn) -> Joint:
-    axes: Dict[str, Any] = {}
-    for freedom in joint.freedoms:
-        if freedom.axis not in AXES or freedom.axis in axes:
-            raise InvalidArgumentError(f"build: joint {joint.name}: axis {freedom.axis!r}")
-        axes[freedom.axis] = _axis(freedom)
+    axes: Dict[str, Any] = {one.axis: _axis(one, one.axis.startswith("linear")) for one in joint.freedoms}
     frames: Dict[str, Any] = {}
     for name, body in (("frame_a", a), ("frame_b", b)):
         if body is None:
             frames[name] = (ORIGIN, turn)  # its world_origin is the place
         else:
-            frame = inside(Frame(tuple(body.position), tuple(body.rotation)), Frame(place, turn))  # type: ignore[arg-type]
+            frame = inside(_pose(body), Frame(place, turn))
             frames[name] = (frame.position, frame.rotation)
     return world.create_configurable_joint(a, b, place, **frames, **axes)
 
 
-def _make_joint(
-    world: World, joint: SceneJoint, built: Built, position: Sequence[float], rotation: Sequence[float]
-) -> Joint:
-    for name in (joint.a, joint.b):
-        if name is not None and name not in built.bodies:
-            raise InvalidArgumentError(f"build: joint {joint.name}: there is no body {name!r}")
-    a = None if joint.a is None else built.bodies[joint.a]
-    b = built.bodies[joint.b]
-    place, axis = add(position, rotate(rotation, joint.position)), rotate(rotation, joint.axis)
+def _make_joint(world: World, joint: SceneJoint, a: Optional[Body], b: Body, at: Frame) -> Joint:
+    place = add(at.position, rotate(at.rotation, joint.position))
+    axis: Triple = rotate(at.rotation, normalized(joint.axis))
     if joint.type == "fixed":
         return world.create_fixed_joint(a, b, place)
     if joint.type == "ball":
         return _make_ball(world, joint, a, b, place, axis)
     if joint.type == "configurable":
-        turn: Turn = normalized(multiply(rotation, joint.rotation))  # type: ignore[assignment]
+        turn: Turn = normalized(multiply(at.rotation, joint.rotation))  # type: ignore[assignment]
         return _make_configurable(world, joint, a, b, place, turn)
     if joint.type == "planar":  # along both axes across `axis`, and about it
         free = {"motion": "free"}
         return world.create_configurable_joint(a, b, place, axis, linear_y=free, linear_z=free, angular_x=free)
-    if joint.type not in JOINT_AXES:
-        raise InvalidArgumentError(f"build: joint {joint.name}: type {joint.type!r} is not known")
-    one = _axis(joint)
+    one = _axis(joint, joint.type == "slider")
     if joint.type == "hinge" and "spring" not in one:
         limited = one.pop("motion") == "limited"
         return world.create_hinge_joint(a, b, place, axis, limit_enabled=limited, **one)
     return world.create_configurable_joint(a, b, place, axis, **{JOINT_AXES[joint.type]: one})
+
+
+def _make_joints(world: World, joint: SceneJoint, built: Built, at: Frame, bodies: Sequence[SceneBody]) -> None:
+    a = None if joint.a is None else built.bodies[joint.a]
+    b = built.bodies[joint.b]
+    if joint.type == "chain":
+        _make_chain(world, joint, built, at, next(body for body in bodies if body.name == joint.b))
+    elif joint.type != "free":
+        built.joints[joint.name] = _make_joint(world, joint, a, b, at)
+
+
+PARTS = {"linear": "slider", "angular": "hinge", "ball": "ball"}
+
+
+def _make_chain(world: World, joint: SceneJoint, built: Built, at: Frame, body: SceneBody) -> None:
+    """Joints whose axes are askew move one after another. Between two of them is a link where the body is, with a share
+    of its mass: all of them together weigh what the body does, about the same centre, with the same inertia."""
+    before, last = None if joint.a is None else built.bodies[joint.a], built.bodies[joint.b]
+    if before is not None:
+        world.ignore_collision(before, last, True)
+    data, count = last.mass_data, len(joint.freedoms) - 1
+    for i, one in enumerate(joint.freedoms):
+        after = last
+        if i < count:
+            after = world.create_body("dynamic", position=last.position, rotation=last.rotation)
+            built.links.append(after)
+            moments: Triple = tuple(LINK_SHARE * x for x in data.inertia)  # type: ignore[assignment]
+            own: Turn = tuple(data.inertia_rotation)  # type: ignore[assignment]
+            link = SceneBody("", rotation=body.rotation, inertia=moments, inertia_rotation=own)
+            rotor = [(one.armature, normalized(one.direction))] if one.axis == "angular" and one.armature > 0 else []
+            _set_mass(after, LINK_SHARE * data.mass, data.centre, *_with_rotors(link, rotor))
+        part = SceneJoint(one.name, PARTS[one.axis], None, "", one.position, one.direction, one.lower, one.upper)
+        part.damping, part.friction, part.stiffness, part.rest = one.damping, one.friction, one.stiffness, one.rest
+        part.cone = one.cone
+        built.joints[one.name] = _make_joint(world, part, before, after, at)
+        before = after
+    share = 1 - LINK_SHARE * count
+    _set_mass(last, share * data.mass, data.centre, [share * x for x in data.inertia], data.inertia_rotation)

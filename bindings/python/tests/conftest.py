@@ -14,8 +14,8 @@ from feather_physics import Body, World
 ROOT = Path(__file__).resolve().parents[3]
 BUILD = Path(os.environ.get("FEATHER_BUILD", ROOT / "build"))
 
-# what MuJoCo must be told of URDF: no link is merged with another one
-FOR_REFEREE = '<mujoco><compiler fusestatic="false" discardvisual="true" strippath="false"/></mujoco>'
+# what MuJoCo must be told of URDF: no link is merged with another one, moments that no body has are balanced
+FOR_REFEREE = '<mujoco><compiler fusestatic="false" discardvisual="true" strippath="false" balanceinertia="true"/></mujoco>'
 
 
 class Parameter(NamedTuple):

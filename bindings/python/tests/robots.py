@@ -48,13 +48,13 @@ def plain(scene: Scene) -> Any:
     """As records in which nothing stands twice: bodies, meshes and principal axes may stand in another order, a turn has
     two quaternions."""
     record = json.loads(scene.to_json())
-    for kind in ("bodies", "joints", "meshes"):
+    for kind in ("bodies", "joints", "meshes", "frames"):
         record[kind].sort(key=lambda one: one["name"])
     for body in record["bodies"]:
         q = multiply(body["rotation"], body.pop("inertia_rotation"))
         body["tensor"] = matrix_of(body.pop("inertia"), q)
         for held in (body, *body["shapes"]):
             held["matrix"] = matrix_of((1, 2, 3), held.pop("rotation"))
-    for joint in record["joints"]:
-        joint["matrix"] = matrix_of((1, 2, 3), joint.pop("rotation"))
+    for turned in (*record["joints"], *record["frames"]):
+        turned["matrix"] = matrix_of((1, 2, 3), turned.pop("rotation"))
     return record

@@ -205,7 +205,9 @@ def test_a_cup_that_stands_holds_a_ball_and_one_that_moves_is_its_hull(tmp_path:
         file = tmp_path / "cup.urdf"
         file.write_text(text.format(name="cup"))
         scene = load_urdf(file, fixed_base=fixed)
-        assert [w.split(": ")[-1] for w in scene.warnings] == ([] if fixed else ["collides as its hull"])
+        assert [w.sentence.split(": ")[-1] for w in scene.warnings] == (
+            [] if fixed else ["meshes of bodies that move collide as their hulls"]
+        )
         with World(gravity=(0, 0, -9.81)) as world:
             world.create_body("static").add_plane((0, 0, 1), 0)
             built = scene.build(world)
@@ -226,10 +228,10 @@ def test_a_urdf_with_meshes_is_written_again(boxes: Path) -> None:
     joint = '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
     text = f'<robot name="r">{link.format("a", form)}{link.format("b", form)}{joint}</robot>'
     scene = load_urdf(text, folders=[boxes])
-    assert len(scene.meshes) == 1 and len(scene.warnings) == 2
+    assert len(scene.meshes) == 1 and len(scene.warnings) == 1
     assert near(plain(load_urdf(save_urdf(scene), folders=[boxes])), plain(scene))
     assert plain(Scene.from_json(scene.to_json())) == plain(scene)
-    with pytest.raises(InvalidArgumentError, match="its hull"):
+    with pytest.raises(InvalidArgumentError, match="their hulls"):
         load_urdf(text, folders=[boxes], strict=True)
     scene.meshes[0].file = ""
     with pytest.raises(FeatherError, match="files alone"):
@@ -246,10 +248,10 @@ def test_what_is_not_there_or_of_another_kind(boxes: Path) -> None:
         mjcf = f'<mujoco><asset><mesh name="m" file="{name}"/></asset><worldbody><geom type="mesh" mesh="m"/></worldbody></mujoco>'
         for load, text in ((load_urdf, urdf), (load_mjcf, mjcf)):
             scene = load(text, folders=[boxes])
-            assert len(scene.warnings) == 1 and "left out" in scene.warnings[0]
+            assert len(scene.warnings) == 1 and "left out" in scene.warnings[0].sentence
             with pytest.raises(InvalidArgumentError, match="left out"):
                 load(text, folders=[boxes], strict=True)
-    flat = '<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 1 1 0"/></asset><worldbody><geom type="mesh" mesh="{}"/></worldbody></mujoco>'
+    flat = '<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 1 1 0"/></asset><worldbody><body><freejoint/><geom type="mesh" mesh="{}"/></body></worldbody></mujoco>'
     for mesh, told in (("m", "<geom>: mesh 'm'"), ("n", "there is no mesh 'n'")):
         with pytest.raises(InvalidArgumentError, match=told):
             load_mjcf(flat.format(mesh))
@@ -281,7 +283,7 @@ def test_json_names_what_is_wrong_with_a_mesh() -> None:
 def test_an_ellipsoid_collides_as_a_hull() -> None:
     model = '<mujoco><worldbody><geom type="plane" size="9 9 1"/><body name="a" pos="0 0 1"><freejoint/><geom type="ellipsoid" size="0.2 0.3 0.1"/></body></worldbody></mujoco>'
     scene = load_mjcf(model)
-    assert [w.split(": ")[-1] for w in scene.warnings] == ["ellipsoids collide as hulls of 64 points"]
+    assert [w.sentence.split(": ")[-1] for w in scene.warnings] == ["ellipsoids collide as hulls of 64 points"]
     assert near(plain(load_mjcf(save_mjcf(scene))), plain(scene))
     with World(gravity=scene.gravity) as world:
         body = scene.build(world).bodies["a"]

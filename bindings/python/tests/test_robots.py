@@ -237,7 +237,7 @@ def test_what_urdf_has_not() -> None:
     for joint, told in (
         (SceneJoint("j", "hinge", "a", "b", (0.5, 0, 0)), "origin"),
         (SceneJoint("j", "slider", "a", "b", (1, 0, 0)), "limits"),
-        (SceneJoint("j", "rack", "a", "b", (1, 0, 0)), "rack"),
+        (SceneJoint("j", "ball", "a", "b", (1, 0, 0)), "ball"),
     ):
         with pytest.raises(UnsupportedError, match=told):
             save_urdf(Scene(bodies=both, joints=[joint]))
@@ -252,11 +252,9 @@ JOINT = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><lim
 
 @pytest.mark.parametrize("body, told", [
     ("<link/>", "name is missing"),
-    (LINK.format("a").replace('"1"/>', '"0"/>', 1), "more than 0"),
+    (LINK.format("a").replace('"1"/>', '"-1"/>', 1), "not negative"),
     (LINK.format("a").replace('value="1"', 'value="one"'), "1 finite numbers"),
     (LINK.format("a").replace('value="1"', 'value="nan"'), "finite"),
-    (LINK.format("a").replace('ixx="1"', 'ixx="3"'), "moments"),
-    (LINK.format("a").replace('ixx="1"', 'ixx="1" ixy="2"'), "moments"),
     (LINK.format("a").replace("<mass value=\"1\"/>", ""), "mass and inertia"),
     (LINK.format("a") * 2, "second link"),
     (TWO, "one link without a parent"),
@@ -265,14 +263,11 @@ JOINT = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><lim
     (TWO + JOINT.replace('link="b"', 'link="z"'), "no link 'z'"),
     (TWO + JOINT.replace("revolute", "screw"), "'screw'"),
     (TWO + JOINT.replace('<limit lower="-1" upper="1"/>', ""), "limit is needed"),
-    (TWO + JOINT.replace('"-1"', '"2"'), "above upper"),
     (TWO + JOINT.replace("<limit", '<axis xyz="0 0 0"/><limit'), "direction"),
     (TWO + JOINT.replace("<limit", '<dynamics damping="-1"/><limit'), "negative"),
     (TWO + JOINT.replace("<limit", '<origin xyz="1 2"/><limit'), "3 finite numbers"),
     (LINK.format("a") + '<link name="b"/>' + JOINT, "no inertial"),
-    ("<planet/>", "is not known in <robot>"),
     ('<link name="a"><collision/></link>', "one form"),
-    ('<link name="a"><collision><geometry><torus/></geometry></collision></link>', "is not known in <geometry>"),
     ('<link name="a"><collision><geometry><box size="1 0 1"/></geometry></collision></link>', "more than 0"),
     ('<link name="a"><collision><geometry><sphere radius="-1"/></geometry></collision></link>', "more than 0"),
 ])
@@ -292,8 +287,6 @@ def test_what_is_no_robot() -> None:
     ):
         with pytest.raises(InvalidArgumentError, match=told):
             load_urdf(text)
-    with pytest.raises(UnsupportedError, match="mimic"):
-        load_urdf("<robot>" + TWO + JOINT.replace("<limit", '<mimic joint="k"/><limit') + "</robot>")
     with pytest.raises(FileNotFoundError):
         load_urdf("no/such.urdf")
     with pytest.raises(InvalidArgumentError, match="inertia"):
@@ -306,7 +299,9 @@ def test_what_is_not_exact_is_a_warning_or_an_error() -> None:
         + JOINT.replace('"1"/></joint>', '"7"/></joint>')
     )
     scene = load_urdf(f"<robot>{extras}</robot>")
-    assert [w.split(": ")[1] for w in scene.warnings] == ["<transmission>", "<mesh>", "<limit>"]
+    assert [(kind, sentence.split(":")[0]) for _, _, kind, sentence in scene.warnings] == [
+        ("element", "<transmission>"), ("limit", "<limit>"), ("mesh", "<mesh>"),
+    ]
     assert scene.joints[0].lower is None and scene.bodies[0].shapes == []
     with pytest.raises(InvalidArgumentError, match="transmission"):
         load_urdf(f"<robot>{extras}</robot>", strict=True)

@@ -1,4 +1,4 @@
-"""The forms of MJCF as masses: volumes, moments, and what a body of several weighs."""
+"""The masses of robots: what forms weigh, what a body of several weighs, and moments that a body can have."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import List, Optional, Sequence, Tuple
 
 from .frames import ORIGIN, Frame, Triple, matrix_of, principal
-from .scene import SceneBody, SceneShape
+from .scene_records import SceneBody, SceneShape
+
+DENSITY = 1000.0  # kg/m3, where a file gives none
 
 
 @dataclass
@@ -58,3 +60,39 @@ def combine(body: SceneBody, geoms: List[Geom]) -> None:
                 tensor[m][n] += own[m][n] + geom.mass * (sum(x * x for x in d) * (m == n) - d[m] * d[n])
     body.mass = mass
     body.inertia, body.inertia_rotation = principal(tensor)
+
+
+# ---- moments that a body can have
+
+
+def is_sound(moments: Sequence[float]) -> bool:
+    """Each is above 0, and not by rounding alone; none is above the sum of the others (A + B >= C), up to the digits that
+    files are written with."""
+    return min(moments) > 1e-12 * max(moments) > 0 and 2 * max(moments) <= sum(moments) * (1 + 1e-6)
+
+
+def of_ball(mass: float) -> Triple:
+    """The moments of a ball of water."""
+    radius = (3 * mass / (4 * math.pi * DENSITY)) ** (1 / 3)
+    return (0.4 * mass * radius**2,) * 3
+
+
+def balanced(moments: Sequence[float], mass: float) -> Triple:
+    """Sound ones instead, as MuJoCo has them: what is below 0 counts as 0, and where one is above the sum of the others,
+    each becomes their mean. A rod's 0 becomes a millionth, and a point gets the moments of a ball."""
+    least = [max(x, 0.0) for x in moments]
+    if 2 * max(least) > sum(least) * (1 + 1e-6):
+        least = [sum(least) / 3] * 3
+    if max(least) == 0:
+        return of_ball(mass)
+    return tuple(max(x, 1e-6 * max(least)) for x in least)  # type: ignore[return-value]
+
+
+def fuse(body: SceneBody, part: SceneBody, at: Frame) -> None:
+    """Adds to a body the mass of one that is fixed to it, at a frame of it."""
+    geoms = [
+        Geom(None, one.mass, one.inertia, frame.then(Frame(one.centre, one.inertia_rotation)))
+        for one, frame in ((body, Frame()), (part, at))
+        if one.mass is not None
+    ]
+    combine(body, geoms)
