@@ -57,7 +57,10 @@ static double a_touch_alone_wakes(dice *d, char *told)
     fe_body sleeper = add_dynamic(&s, a.form, v3(0, a.height, 0), a.lies ? flat : UNTURNED, friction(0.6), WATER);
     let_sleep(&s, sleeper);
     law_run(&s, r, 2);
-    double gap = spread(d, 1e-4, 0.02), speed = spread(d, 0.5, 20), way = 2 * (a.half + b.half) + 0.1 + speed / r.hertz;
+    double gap = spread(d, 1e-4, 0.02), speed = spread(d, 0.5, 20);
+    // what outruns the two within a step may pass through, unless it is a bullet
+    if (hits) speed = fmin(speed, (a.half + b.half) * r.hertz);
+    double way = 2 * (a.half + b.half) + 0.1 + speed / r.hertz;
     vec at = hits ? v3(0, b.height, -way) : v3(a.half + b.half + gap, b.height, -way);
     fe_body passer = add_dynamic(&s, b.form, at, b.lies ? flat : UNTURNED, friction(0), WATER);
     fe_transform before;
