@@ -116,6 +116,9 @@ typedef struct fe__hull_ends {
     int32_t along, against;
 } fe__hull_ends;
 
+// sine of 5 degrees: an edge that leans no more lies along a face
+#define FE__LIES_ALONG 0.0872f
+
 // ---- hull.c: in the hull's frame -----------------------------------------------------------------------------------
 int32_t fe__hull_support(const fe__hull *hull,
                          fe_dvec3 direction); // the vertex farthest along it; of equals the lowest

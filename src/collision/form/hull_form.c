@@ -91,18 +91,41 @@ void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__f
     }
 }
 
+// By how much the way to the vertex at an edge's other end falls back along the direction: a sine
+static double falls_back(const fe__hull *hull, int32_t edge, fe_dvec3 direction)
+{
+    fe_vec3 from = fe__hull_vertex(hull, hull->edges[edge].origin),
+            to = fe__hull_vertex(hull, hull->edges[edge ^ 1].origin);
+    fe_dvec3 way = fe__widen(fe__sub(from, to));
+    return fe__ddot(direction, way) / sqrt(fe__ddot(way, way) * fe__ddot(direction, direction));
+}
+
+static double facing(const fe__hull *hull, int32_t face, fe_dvec3 direction)
+{
+    return fe__ddot(direction, fe__widen(fe__hull_normal(hull, face)));
+}
+
 // Of the faces around the farthest vertex that which looks most along the direction: so that vertex is among those
-// given
+// given. Where none lies across it, an edge may, as a wedge's that stands: then one of its two faces
 static int32_t face_around(const fe__hull *hull, int32_t vertex, fe_dvec3 direction)
 {
-    int32_t first = hull->spokes[vertex], best = hull->edges[first].face;
-    double most = fe__ddot(direction, fe__widen(fe__hull_normal(hull, best)));
+    int32_t first = hull->spokes[vertex], best = hull->edges[first].face, flattest = -1;
+    double most = facing(hull, best, direction), least = (double)FE__LIES_ALONG;
     for (int32_t h = hull->edges[first ^ 1].next; h != first; h = hull->edges[h ^ 1].next) {
         int32_t face = hull->edges[h].face;
-        double along = fe__ddot(direction, fe__widen(fe__hull_normal(hull, face)));
+        double along = facing(hull, face, direction);
         if (along > most || (along == most && face < best)) most = along, best = face;
     }
-    return best;
+    if (most * most > (1.0 - least * least) * fe__ddot(direction, direction)) return best;
+    int32_t h = first;
+    do {
+        double back = falls_back(hull, h, direction);
+        if (back < least) least = back, flattest = h;
+        h = hull->edges[h ^ 1].next;
+    } while (h != first);
+    if (flattest < 0) return best;
+    int32_t left = hull->edges[flattest].face, right = hull->edges[flattest ^ 1].face;
+    return facing(hull, left, direction) >= facing(hull, right, direction) ? left : right;
 }
 
 void fe__hull_form_face_at(const fe__form *form, int32_t vertex, fe_vec3 direction, fe__face *face)

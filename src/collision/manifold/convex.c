@@ -214,12 +214,12 @@ static int32_t touch_segments(const facing *f, const fe__core_touch *found, floa
                             found->separation, margin, manifold);
 }
 
-// Edges and sides along each other. A disc's points at its rim are no edges.
+// Sides along each other. An edge of a box or a hull is left to its nearest point: it may be a seam, which is not felt.
 static int32_t touch_lines(const facing *f, const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
     const fe__form *a = f->form[0], *b = f->form[1];
     if (touch_segments(f, found, margin, manifold) > 0) return 1;
-    if (!(fe__form_is_curved(a) || fe__form_is_curved(b)) || f->face[0].rim > 0.0f || f->face[1].rim > 0.0f) return 0;
+    if (f->face[0].count != 2 || f->face[1].count != 2 || !(fe__form_is_curved(a) || fe__form_is_curved(b))) return 0;
     float tie = fe__tie(fe__minf(fe__form_thickness(a), fe__form_thickness(b)));
     return fe__lay_lines(a, b, &f->face[0], &f->face[1], found, middle_of(found, a, b), tie, margin, manifold);
 }

@@ -71,20 +71,47 @@ static int32_t deepest_below(const face_pair *p, float *separation)
     return deepest;
 }
 
+// The rise along the direction, sine, of the flatter of a face's two edges at its corner i
+static float flatter_edge(const fe__hull *hull, const fe__hull_face *face, int32_t i, fe_vec3 direction)
+{
+    fe_vec3 corner = fe__hull_vertex(hull, hull->corners[face->first + i]);
+    float least = 1.0f;
+    for (int32_t k = 0; k < 2; ++k) {
+        int32_t other = k == 0 ? (i + 1 < face->count ? i + 1 : 0) : (i > 0 ? i - 1 : face->count - 1);
+        fe_vec3 edge = fe__sub(fe__hull_vertex(hull, hull->corners[face->first + other]), corner);
+        least = fe__minf(least, fe__dot(direction, edge) / fe__length(edge));
+    }
+    return least;
+}
+
+static int32_t corner_of(const fe__hull *hull, const fe__hull_face *face, int32_t vertex)
+{
+    for (int32_t i = 0; i < face->count; ++i)
+        if (hull->corners[face->first + i] == vertex) return i;
+    return -1;
+}
+
 // Of the faces around the vertex that which looks most against the direction: so the deepest point is among those kept.
+// Where none lies along the reference, an edge may, as a wedge's that stands on it: then one of its two faces, or the
+// other end of the edge would be lost.
 static int32_t incident_face(const fe__hull *hull, int32_t vertex, fe_vec3 direction)
 {
     int32_t best = -1;
-    float least = FLT_MAX;
+    float least = FLT_MAX, flattest = FE__LIES_ALONG;
     for (int32_t f = 0; f < hull->face_count; ++f) {
         float cosine = fe__dot(direction, fe__hull_normal(hull, f));
-        if (cosine >= least) continue;
-        const fe__hull_face *face = hull->faces + f;
-        for (int32_t i = 0; i < face->count; ++i) {
-            if (hull->corners[face->first + i] != vertex) continue;
-            best = f, least = cosine;
-            break;
-        }
+        if (cosine < least && corner_of(hull, hull->faces + f, vertex) >= 0) best = f, least = cosine;
+    }
+    if (least < -FE_FACE_COS ||
+        flatter_edge(hull, hull->faces + best, corner_of(hull, hull->faces + best, vertex), direction) < flattest)
+        return best;
+    for (int32_t f = 0; f < hull->face_count; ++f) {
+        float cosine = fe__dot(direction, fe__hull_normal(hull, f));
+        int32_t corner =
+            cosine < 0.0f ? corner_of(hull, hull->faces + f, vertex) : -1; // one of an edge's two looks down
+        if (corner < 0) continue;
+        float rise = flatter_edge(hull, hull->faces + f, corner, direction);
+        if (rise < flattest || (rise == flattest && cosine < least)) best = f, flattest = rise, least = cosine;
     }
     return best;
 }

@@ -93,9 +93,8 @@ int32_t fe__cut_disc(const struct fe__face *reference, const struct fe__face *in
 int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation,
                          float margin, fe__manifold *manifold);
 
-// Two faces that are lines or polygons, of which no polygon lies along the normal found (lines.c): gives the ends of
-// the stretch along which a side, a core or an edge of either runs with the other's, with ids 1 and 2, and where these
-// are not as deep as the nearest point, that, with id 0. 0: they do not.
+// Two faces that are lines (lines.c): gives the ends of the stretch along which a side or a core of either runs with
+// the other's, with ids 1 and 2, and where these are not as deep as the nearest point, that, with id 0. 0: they do not.
 int32_t fe__lay_lines(const fe__form *a, const fe__form *b, const struct fe__face *face_a,
                       const struct fe__face *face_b, const fe__core_touch *found, fe_vec3 nearest, float tie,
                       float margin, fe__manifold *manifold);

@@ -1,4 +1,4 @@
-// lines.c - two lines along each other: the side of a cone or a cylinder, the core of a capsule, an edge.
+// lines.c - two lines along each other: the side of a cone or a cylinder, the core of a capsule.
 //
 // Called by convex.c for what no face lies along. A contact there at the nearest points alone runs from end to end of
 // such lines with the least turn, and what lies so rocks for ever. The ends of the stretch that the two have in common
@@ -10,30 +10,15 @@
 // On the surface, A's frame
 typedef struct line {
     fe_vec3 start, way; // from one end to the other
-    float radius[2];    // across it, at either end: a cone's vanishes at its tip, an edge's is 0
+    float radius[2];    // across it, at either end: a cone's vanishes at its tip
 } line;
 
-// The polygon's edge farthest along the direction
-static line edge_along(const fe__face *face, fe_vec3 direction)
+static line line_of(const fe__form *form, const fe__face *side, fe_vec3 direction)
 {
-    int32_t best = 0;
-    float most = -INFINITY, last = fe__dot(direction, face->vertex[0]), first = last;
-    for (int32_t i = 0; i < face->count; ++i) {
-        float next = i + 1 < face->count ? fe__dot(direction, face->vertex[i + 1]) : first;
-        if (last + next > most) most = last + next, best = i;
-        last = next;
-    }
-    fe_vec3 start = face->vertex[best], end = face->vertex[best + 1 < face->count ? best + 1 : 0];
-    return (line){start, fe__sub(end, start), {0.0f, 0.0f}};
-}
-
-static line line_of(const fe__form *form, const fe__face *face, fe_vec3 direction)
-{
-    line l = edge_along(face, direction);
-    if (face->count > 2) return l;
-    l.start = fe__add_scaled(face->vertex[0], form->radius, direction);
-    l.way = fe__sub(face->vertex[1], face->vertex[0]);
-    l.radius[0] = l.radius[1] = fe__form_roundness(form);
+    float roundness = fe__form_roundness(form);
+    line l = {.start = fe__add_scaled(side->vertex[0], form->radius, direction),
+              .way = fe__sub(side->vertex[1], side->vertex[0]),
+              .radius = {roundness, roundness}};
     if (form->type == FE__FORM_CONE) { // from the rim along the side's normal to the axis: r / cos a, tan a = r / 2h
         float r = form->half.x, h = 2.0f * form->half.y;
         l.radius[0] = r * sqrtf(r * r + h * h) / h, l.radius[1] = 0.0f;
