@@ -163,9 +163,8 @@ static void take_flushed(float *out, const float *in)
 // What constraints gave a velocity in the last pass, too, ends at the limit
 static void limit_speed(float *v, float most)
 {
-    double x = (double)v[0], y = (double)v[1], z = (double)v[2], square = x * x + y * y + z * z;
-    if (!(square > (double)most * (double)most)) return;
-    double k = (double)most / __builtin_sqrt(square);
+    if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > most * most)) return;
+    double x = (double)v[0], y = (double)v[1], z = (double)v[2], k = (double)most / sqrt(x * x + y * y + z * z);
     v[0] = (float)(k * x), v[1] = (float)(k * y), v[2] = (float)(k * z);
 }
 
