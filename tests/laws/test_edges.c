@@ -45,7 +45,7 @@ static edged any_edged(scene *s, dice *d, double half)
 static double a_line_along_a_ground_has_both_its_ends(dice *d, char *told)
 {
     rate r = any_rate(d);
-    ground_kind kind = (ground_kind)pick(d, GROUND_KINEMATIC); // static
+    ground_kind kind = any_ground(d);
     scene s = law_scene(r);
     double half = spread(d, 0.1, 1), heading = uniform(d, -PI, PI);
     add_level_ground(&s, kind, 8, friction(0.6));

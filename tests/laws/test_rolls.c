@@ -16,7 +16,7 @@ static double energy_of(const scene *s)
 static double a_cone_that_rolls_on_its_side_does_not_drive_itself(dice *d, char *told)
 {
     rate r = any_rate(d);
-    ground_kind kind = (ground_kind)pick(d, GROUND_KINEMATIC); // static
+    ground_kind kind = any_ground(d);
     double radius = spread(d, 0.05, 0.5), height = radius * uniform(d, 1.5, 4), lean = atan(radius / height);
     double slow = sqrt(G * radius) * uniform(d, 0.05, 0.2), turn = slow / (0.75 * height * cos(lean)); // rad/s
     double heading = uniform(d, -PI, PI), way = 0.75 * height, spin = -turn / tan(lean);
