@@ -9,7 +9,7 @@ enum { POURED = 200, QUIET_STEPS = 100, MOST_BODIES = 2000 };
 enum { POURED = 1500, QUIET_STEPS = 1000, MOST_BODIES = 20000 };
 #endif
 // a heap packs for some seconds, and has more near pairs than ever when it has
-enum { COLUMNS = 9, LAYER = COLUMNS * COLUMNS, SETTLING_STEPS = 600, LONGEST_FALL = 600 };
+enum { COLUMNS = 9, LAYER = COLUMNS * COLUMNS, SETTLING_STEPS = 900, LONGEST_FALL = 600 };
 
 // The scene bowl-1500 of the bench: a walled pit, and boxes, spheres and capsules poured into it in layers
 static void build_bowl(play *p)

@@ -133,6 +133,12 @@ static fe_world *load(const scene *s, bytes from, int32_t turn)
     return world;
 }
 
+static void forget_snapshots(fuzz *f)
+{
+    free(f->before.bytes);
+    free(f->after.bytes);
+}
+
 // ---- one moment ----------------------------------------------------------------------------------------------------
 static void go_on_three_times(scene *s, int32_t turn)
 {
@@ -141,6 +147,8 @@ static void go_on_three_times(scene *s, int32_t turn)
     uint32_t seed = s->seed;
     bytes moment = save(s->f.world), again;
     then = anew = s->f;
+    const fuzz_snapshot none = {0}; // each keeps its own
+    then.before = then.after = anew.before = anew.after = none;
     run(&s->f, &first);
     anew.world = load(s, moment, turn);
     again = save(anew.world);
@@ -156,6 +164,7 @@ static void go_on_three_times(scene *s, int32_t turn)
     free(again.data);
     run_again("restored", seed, &then, &first);
     expect_same_handles(&s->f, &then);
+    forget_snapshots(&then), forget_snapshots(&anew);
     free(moment.data);
     for (int32_t i = 0; i < STEPS; ++i) free(first.after[i].data);
 }
@@ -177,6 +186,7 @@ static void play_scene(uint32_t seed, int32_t moments)
         call_some(&s.f, 20 + (int32_t)(draw(&s.seed) % 100), 0);
         go_on_three_times(&s, i);
     }
+    forget_snapshots(&s.f);
     FE_TRUE(fe_world_destroy(s.f.world) == FE_OK && fe_store_destroy(s.store) == FE_OK);
 }
 
