@@ -11,8 +11,8 @@ static double energy_of(const scene *s)
 
 // A cone lies on its side and rolls without slipping about its tip. Static friction does no work: it may lose energy,
 // but gains none. What crosses a seam has more points there or fewer, and either end of its line rises by what it sinks
-// less: m / m_n g / w^2 at most, w = 2 pi min(2 contact_hertz, a quarter of the rate of substeps). At the rim, a quarter
-// of the height from the centre of mass, m / m_n is 8/3 for a slender cone: 4 g / w^2 for both ends.
+// less: m / m_n g / w^2 at most, w = 2 pi min(2 contact_hertz, a quarter of the rate of substeps). At the rim, a
+// quarter of the height from the centre of mass, m / m_n is 8/3 for a slender cone: 4 g / w^2 for both ends.
 static double a_cone_that_rolls_on_its_side_does_not_drive_itself(dice *d, char *told)
 {
     rate r = any_rate(d);

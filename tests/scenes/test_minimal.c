@@ -45,8 +45,8 @@ static void a_platform_carries_a_box(void **state)
     }
 }
 
-// A turntable takes its box round: v = w r, held inwards by friction while w^2 r < mu g. Friction holds it to the arc of
-// the surface, not to its tangent, so that it keeps its radius (tests/laws/test_turntable draws riders and tables).
+// A turntable takes its box round: v = w r, held inwards by friction while w^2 r < mu g. Friction holds it to the arc
+// of the surface, not to its tangent, so that it keeps its radius (tests/laws/test_turntable draws riders and tables).
 static void a_turntable_takes_a_box_round(void **state)
 {
     scene s = scene_begin(state);
