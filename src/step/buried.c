@@ -7,6 +7,7 @@
 // ---- who is --------------------------------------------------------------------------------------------------------
 typedef struct census {
     const fe_world *world;
+    const uint8_t *is_buried; // by shape, as soon as it is known
     int32_t shape, met;
 } census;
 
@@ -28,11 +29,33 @@ static void find_in_block(void *argument, int32_t first, int32_t end, int32_t wo
     const fe_world *w = step->world;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        census c = {w, i, 0};
+        census c = {w, NULL, i, 0};
         if (w->shapes[i].flags & FE__SHAPE_IN_TREE && fe__may_be_buried(w, i))
             fe__tree_query_proxy(&w->moving_tree, &w->moving_tree, i, count_new, &c);
         step->scratch->is_buried[i] = c.met > FE__BURIED_BY;
     }
+}
+
+static int32_t count_buried(void *context, int32_t other)
+{
+    census *c = context;
+    if (other != c->shape && c->is_buried[other] && may_be_new(c->world, c->shape, other)) ++c->met;
+    return c->met <= FE__BURIED_BY;
+}
+
+// How many buried ones each meets, counted no farther than in the search before
+static void count_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    fe__step_scratch *s = step->scratch;
+    int64_t met = 0;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) {
+        census c = {step->world, s->is_buried, s->buried[i], 0};
+        fe__tree_query_proxy(&step->world->moving_tree, &step->world->moving_tree, s->buried[i], count_buried, &c);
+        met += c.met;
+    }
+    atomic_fetch_add(&s->buried_meetings, met);
 }
 
 int32_t fe__find_buried(fe__step *step)
@@ -48,6 +71,7 @@ int32_t fe__find_buried(fe__step *step)
     if (!FE_RENEW(w->step_memory, s->buried, s->buried_capacity, count)) return 0;
     for (int32_t i = 0; i < shapes; ++i)
         if (s->is_buried[i]) s->buried[s->buried_count++] = i;
+    fe__parallel_for(&w->workers, s->buried_count, SHAPES_IN_BLOCK, count_in_block, step);
     return 1;
 }
 

@@ -25,11 +25,10 @@ int32_t fe__find_beside(fe__step *step);
 // Those that are awake look again in the next step
 void fe__buried_keep_looking(fe__step *step);
 
-// Pairs that were not looked at, at least: each met more than FE__BURIED_BY others, of which it looks at those beside
-// it, and a pair is of two
+// Pairs of two buried shapes that were not looked at, at least: of those that meet, each looks at those beside it
 static inline int64_t fe__buried_left_out(const fe__step_scratch *s)
 {
-    return (int64_t)s->buried_count * (FE__BURIED_BY / 2 - FE__BESIDE);
+    return fe__maxl(atomic_load(&s->buried_meetings) / 2 - (int64_t)s->buried_count * FE__BESIDE, 0);
 }
 
 #endif

@@ -256,6 +256,7 @@ static int32_t search_all(fe__step *step)
         return 0;
     mark_moved(step, 1);
     s->buried_count = 0;
+    atomic_store(&s->buried_meetings, 0);
     atomic_store(&s->is_crowd, 0);
     int32_t is_done = search_few(step) && (!atomic_load(&s->is_crowd) || search_crowd(step));
     mark_moved(step, 0);
