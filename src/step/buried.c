@@ -48,14 +48,14 @@ static void count_in_block(void *argument, int32_t first, int32_t end, int32_t w
 {
     const fe__step *step = argument;
     fe__step_scratch *s = step->scratch;
-    int64_t met = 0;
+    int32_t met = 0;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         census c = {step->world, s->is_buried, s->buried[i], 0};
         fe__tree_query_proxy(&step->world->moving_tree, &step->world->moving_tree, s->buried[i], count_buried, &c);
         met += c.met;
     }
-    atomic_fetch_add(&s->buried_meetings, met);
+    atomic_fetch_add(&s->buried_meetings, met); // of two million shapes at most
 }
 
 int32_t fe__find_buried(fe__step *step)
