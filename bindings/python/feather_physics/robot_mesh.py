@@ -220,7 +220,10 @@ def mass_of(points: Sequence[float], triangles: Sequence[int]) -> Optional[Tuple
     if triangles:
         return _of_triangles(points, triangles)
     with Store() as store:
-        info = hull_of(store, points).info
+        try:
+            info = store.create_hull(_rows(points), max_vertices=MOST_HULL_VERTICES).info
+        except DegenerateError:
+            return None
     moments = tuple(x / info.volume for x in info.inertia)
     return info.volume, tuple(info.centre), moments, tuple(info.inertia_rotation)  # type: ignore[return-value]
 

@@ -236,11 +236,11 @@ def test_the_ragdoll_stands() -> None:
 
 
 GOLDEN: Dict[str, int] = {
-    "BallOnPlate": 0xEA1E673E0BF4F5FD,
+    "BallOnPlate": 0x55C0A4A697736B6C,
     "CartPole": 0xE02C34B0EBD55290,
     "Push": 0x05F807006459D752,
-    "Ragdoll": 0xFB094EA071D94D1A,
-    "Walker": 0x555FA051270C2B63,
+    "Ragdoll": 0xC54B6B0B8550965C,
+    "Walker": 0x678BBEBA06DF6D80,
 }
 
 
