@@ -56,7 +56,7 @@ typedef struct fe__approach_hit {
 } fe__approach_hit;
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
-// Of two that touch at the start across a normal: a point of the frame's
+// Two forms touch at the start across a normal: gives a point of that of the frame at which they do.
 fe_dvec3 fe__boxes_touching_point(const fe__approach *a, fe_dvec3 normal);
 
 // ---- hulls, and what has a rim (approach_curved.c) ------------------------------------------------------------------

@@ -236,7 +236,7 @@ static fe__clip_vertex rim_point(const fe__disc *disc, int32_t i)
                              fe__clip_id(FE_CLIP_SIDE + i, FE_CLIP_SIDE + i)};
 }
 
-// of a polygon's edge: unit and out of the polygon, and how far from the rim's centre it is
+// The line of a polygon's edge: its unit normal points out of the polygon, its distance counts from the rim's centre.
 typedef struct edge_line {
     float u, v, distance;
 } edge_line;
