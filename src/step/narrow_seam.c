@@ -99,12 +99,8 @@ static void touch_face(const seam *s, fe_vec3 f, float sign, fe__manifold *found
     project(&reference, reference.vertex[0], &frame, side);
     project(&incident, reference.vertex[0], &frame, vertex);
     const float slack = 1e-5f, tie = 5e-5f; // m
-    int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, slack), near = 0;
-    for (int32_t i = 0; i < count; ++i) {
-        vertex[i].height -= s->other.form->radius;
-        if (vertex[i].height <= s->margin) vertex[near++] = vertex[i];
-    }
-    found->count = fe__reduce_to_four(vertex, near, tie);
+    int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, slack);
+    found->count = fe__keep_near(vertex, count, s->other.form->radius, s->margin, tie);
     if (found->count) found->normal = fe__scale(sign, f);
     for (int32_t i = 0; i < found->count; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(reference.vertex[0], vertex[i].u, frame.x), vertex[i].v, frame.y);

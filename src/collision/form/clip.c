@@ -382,3 +382,13 @@ int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
     memcpy(p, kept, sizeof(fe__clip_vertex) * (size_t)chosen);
     return chosen;
 }
+
+int32_t fe__keep_near(fe__clip_vertex *p, int32_t count, float radii, float margin, float tie)
+{
+    int32_t near = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        p[i].height -= radii;
+        if (p[i].height <= margin) p[near++] = p[i];
+    }
+    return fe__reduce_to_four(p, near, tie);
+}

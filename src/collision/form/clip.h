@@ -57,4 +57,7 @@ int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int3
 // rounding errors do not choose.
 int32_t fe__reduce_to_four(fe__clip_vertex *vertices, int32_t count, float tie);
 
+// Lowers the heights of cores' vertices by the radii around them, and leaves at most four of those below the margin.
+int32_t fe__keep_near(fe__clip_vertex *vertices, int32_t count, float radii, float margin, float tie);
+
 #endif

@@ -116,14 +116,10 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     float tie = fe__tie(0.25f * fe__length(diagonal));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
     if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
-    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding), near = 0;
+    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding);
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
-    for (int32_t i = 0; i < count; ++i) {
-        vertex[i].height -= radii;
-        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
-    }
-    near = fe__reduce_to_four(vertex, near, 0.1f * tie);
+    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie);
     manifold->normal = flip ? fe__neg(frame.n) : frame.n;
     uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
     for (int32_t i = 0; i < near; ++i) {
@@ -253,12 +249,7 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
     u = fe__scale(1.0f / fe__length(u), u);
     plane_frame frame = {fe__scale(plane->distance, plane->normal), u, fe__cross(plane->normal, u), plane->normal};
     project(&frame, &face, vertex);
-    int32_t near = 0;
-    for (int32_t i = 0; i < face.count; ++i) {
-        vertex[i].height -= b->radius;
-        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
-    }
-    near = fe__reduce_to_four(vertex, near, 0.0f);
+    int32_t near = fe__keep_near(vertex, face.count, b->radius, margin, 0.0f);
     if (near > 0) manifold->normal = plane->normal;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);

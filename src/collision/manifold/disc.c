@@ -74,14 +74,10 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     float rounding = 1e-6f * (disc->rim + fe__length(fe__sub(other->vertex[0], frame.centre)));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
     if (found->overlap && lowest_of_all(&d, is_incident, side, other->count) - radii < least) return 0;
-    int32_t count = fe__clip_disc(&d, side, other->count, 0.1f * tie + rounding, margin + radii, vertex), near = 0;
+    int32_t count = fe__clip_disc(&d, side, other->count, 0.1f * tie + rounding, margin + radii, vertex);
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
-    for (int32_t i = 0; i < count; ++i) {
-        vertex[i].height -= radii;
-        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
-    }
-    near = fe__reduce_to_four(vertex, near, 0.1f * tie);
+    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie);
     manifold->normal = flip ? fe__neg(reference->normal) : reference->normal;
     uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
     for (int32_t i = 0; i < near; ++i) {

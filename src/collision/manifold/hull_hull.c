@@ -152,10 +152,8 @@ static void cut_faces(const hull_pair *q, const face_pair *p, int32_t deepest, f
     plane_frame frame = frame_of(p, &reference);
     project(&frame, &reference, side);
     project(&frame, &incident, vertex);
-    int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, q->slack), near = 0;
-    for (int32_t i = 0; i < count; ++i)
-        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
-    near = fe__reduce_to_four(vertex, near, 0.1f * q->tie);
+    int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, q->slack);
+    int32_t near = fe__keep_near(vertex, count, 0.0f, margin, 0.1f * q->tie);
     manifold->normal = normal;
     uint32_t faces = (uint32_t)(p->own == q->b) << 30 | reference.id << 20 | incident.id << 10;
     for (int32_t i = 0; i < near; ++i) {
