@@ -63,14 +63,17 @@ typedef struct fe__body {
     double origin[3]; // of the body's frame, m
     // colours taken by its contacts in the constraint graph, one bit each
     uint64_t colours[2];
-    uint32_t drawn;                               // what its last contact's colour was drawn with, 0 at first
-    uint32_t joint_colours;                       // the same of its joints
-    int32_t joint_count;                          // linked ones, see joint.h
-    uint64_t serial;                              // of creation, never reused
-    int32_t first_contact, contact_count;         // list of pairs, threaded through fe__pair.links
-    int32_t static_pairs;                         // of them, those with a static body
-    int32_t coming_contacts;                      // while a step reserves: candidates with this body; while an island
-                                                  // gathers to fall asleep: where it stood among the awake. Else 0
+    uint32_t drawn;                       // what its last contact's colour was drawn with, 0 at first
+    uint32_t joint_colours;               // the same of its joints
+    int32_t joint_count;                  // linked ones, see joint.h
+    uint64_t serial;                      // of creation, never reused
+    int32_t first_contact, contact_count; // list of pairs, threaded through fe__pair.links
+    int32_t static_pairs;                 // of them, those with a static body
+    // of the stage or the call at hand, else 0
+    union {
+        int32_t coming_contacts; // while a step reserves: candidates with this body
+        int32_t place_before;    // while its island gathers to fall asleep: its place among the awake until then
+    };
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
     int32_t first_joint, last_joint, joint_total;

@@ -148,11 +148,12 @@ void fe__body_fall_asleep(fe_world *world, int32_t index)
     fe__body_retire(world, index);
 }
 
-// An awake body joins the island that gathers
+// An awake body joins the island that gathers. It notes its place until then, so that fe__put_to_sleep can undo the
+// exchange.
 static void gather(fe_world *world, int32_t body, int32_t *low)
 {
     if (body < 0 || world->bodies[body].awake_index < 0 || world->bodies[body].awake_index >= *low) return;
-    world->bodies[body].coming_contacts = world->bodies[body].awake_index;
+    world->bodies[body].place_before = world->bodies[body].awake_index;
     swap_places(world, world->bodies[body].awake_index, --*low);
 }
 
@@ -174,7 +175,7 @@ static int32_t gather_island(fe_world *world, int32_t body, int32_t *low)
     return 1;
 }
 
-// The order of the list shows in a snapshot: where nobody falls asleep it is as it was
+// The order of the list shows in a snapshot. Where nobody falls asleep the exchanges are undone, the last one first.
 fe_result fe__put_to_sleep(fe_world *world, int32_t body)
 {
     int32_t low = world->awake_body_count;
@@ -182,8 +183,8 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
     int32_t may_sleep = gather_island(world, body, &low);
     for (int32_t place = low; place < world->awake_body_count; ++place) {
         fe__body *gathered = world->bodies + world->awake_bodies[place];
-        if (!may_sleep) swap_places(world, place, gathered->coming_contacts);
-        gathered->coming_contacts = 0;
+        if (!may_sleep) swap_places(world, place, gathered->place_before);
+        gathered->place_before = 0;
     }
     if (!may_sleep) return FE_ERROR_STATE;
     world->solver.graph_changed = 1;
