@@ -1846,7 +1846,8 @@ FE_API void fe_restore_options_init(fe_restore_options *options, uint32_t struct
 /// changes nothing. Bytes from anywhere may be given: what is accepted is sound, even if nobody saved it.
 ///
 /// Assets are found by their keys in the world's store, or in the bytes, or in `options`; those from the bytes stay in
-/// the store. It takes memory for a second world while it runs.
+/// the store. A heightfield or a mesh of `options` may hold something else than its key says: what is on it wakes, as
+/// after an edit. It takes memory for a second world while it runs.
 /// @param options  NULL: the defaults
 /// @param bytes    of fe_world_save, at any alignment; nothing keeps them
 /// @return FE_FOREIGN: done, from a library whose results differ: it goes on, not bit for bit. FE_ERROR_DATA for bytes

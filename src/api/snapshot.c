@@ -91,6 +91,7 @@ typedef struct known_assets {
     int32_t *assets;
     fe_asset *made; // of the store, from the bytes
     int32_t count, made_count, capacity;
+    int32_t has_stand_ins; // 1: the caller gives one that holds something else than its key says
 } known_assets;
 
 static size_t known_size(const known_assets *k)
@@ -116,6 +117,7 @@ static fe_result take_given(const char *function, fe_store *store, const fe_rest
         FE_TRY(fe__find_asset(function, "assets", store, options->assets[i], k->assets + i));
         fe__asset_retain(store, k->assets[i]);
         memcpy(k->keys + i, options->keys + i, sizeof *k->keys);
+        k->has_stand_ins |= !fe__keys_are_same(k->keys[i], fe__asset_key_of(store, k->assets[i]));
     }
     return FE_OK;
 }
@@ -236,7 +238,7 @@ static fe_result exchange(const char *function, fe_world *world, fe__build *buil
     fe_result result = FE_OK;
     if (!fe__snapshot_prepare(build, world, beside, number)) result = report_refusal(function, build);
     if (result == FE_OK) result = check_values(function, beside);
-    if (result == FE_OK) fe__snapshot_adopt(world, beside, build->editions);
+    if (result == FE_OK) fe__snapshot_adopt(world, beside, build);
     fe__snapshot_drop(world, beside);
     fe__release(&world->memory, beside, sizeof *beside);
     return result;
@@ -275,7 +277,11 @@ static fe_result restore_opened(const char *function, fe_world *world, const fe_
     fe__store_unlock(world->store);
     if (result == FE_OK) result = make_assets(function, world->store, snapshot, &known);
     if (result == FE_OK) result = share_parts(function, world->store, &known);
-    fe__build build = {.snapshot = snapshot, .keys = known.keys, .assets = known.assets, .asset_count = known.count};
+    fe__build build = {.snapshot = snapshot,
+                       .keys = known.keys,
+                       .assets = known.assets,
+                       .asset_count = known.count,
+                       .has_stand_ins = known.has_stand_ins};
     int32_t number = options->new_number ? world->number : snapshot->number;
     if (result == FE_OK) result = exchange(function, world, &build, number);
     close_known(world, &known, result);

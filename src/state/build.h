@@ -15,7 +15,7 @@ typedef struct fe__build {
     const fe__asset_key *keys; // assets that are known by these, beside the store's
     const int32_t *assets;     // their records
     int32_t asset_count;
-    int64_t editions;      // of the store's assets when shapes took their forms
+    int32_t has_stand_ins; // 1: one of them holds something else than its key says
     fe__asset_key missing; // with FE_ERROR_STATE: of the first that is not there
 } fe__build;
 

@@ -371,7 +371,6 @@ int32_t fe__build_assets(fe__build *b)
 {
     fe_world *w = b->world;
     int32_t rows = fe__rows_of(b->snapshot, FE__TABLE_ASSETS), users = 0;
-    b->editions = w->store->editions;
     for (int32_t slot = 0; slot < w->shape_ids.slot_count; ++slot)
         users += is_slot_used(&w->shape_ids, slot) && fe__form_has_asset(&w->shapes[slot].form);
     if (!FE_RESERVE(fe__memory_of(b), w->uses, w->use_capacity, rows)) return fe__lack_memory(b);

@@ -44,9 +44,23 @@ void fe__world_follow_state(fe_world *world, int32_t burdened)
     if (world->scratch) atomic_store(&world->scratch->some_deferred, 1);
 }
 
-// Another thread may have edited an asset since the forms were taken: nobody entered the new state for it, so that it
-// learns of the edit here.
-void fe__snapshot_adopt(fe_world *world, fe_world *beside, int64_t editions)
+// Does the asset hold what the shapes had when the world was saved? The caller may have given another one for its key,
+// and another thread may have edited it since the forms were taken: it could not enter the new state.
+static int32_t is_as_saved(const fe__build *b, const fe_store *store, const fe__asset *asset)
+{
+    if (asset->kind != FE__ASSET_HEIGHTFIELD && asset->kind != FE__ASSET_MESH) return 1;
+    if (asset->edition == 0 && !b->has_stand_ins) return 1;
+    const fe__asset_key now = fe__asset_key_of(store, asset->index);
+    for (int32_t i = 0; i < fe__rows_of(b->snapshot, FE__TABLE_ASSETS); ++i) {
+        fe__asset_row row;
+        fe__take_row(b->snapshot, FE__TABLE_ASSETS, i, &row);
+        if (row.key[0] == now.words[0] && row.key[1] == now.words[1]) return 1;
+    }
+    return 0;
+}
+
+// The boxes and pairs are those of the saved world. Where an asset holds something else they are found anew.
+void fe__snapshot_adopt(fe_world *world, fe_world *beside, const fe__build *build)
 {
     fe__store_lock(world->store);
     for (int32_t i = 0; i < FE__MEMBERS; ++i) {
@@ -55,7 +69,9 @@ void fe__snapshot_adopt(fe_world *world, fe_world *beside, int64_t editions)
                    members->end - members->first);
     }
     fe__world_follow_state(world, beside->solver.burdened);
-    if (world->store->editions != editions) fe__assets_renew(world);
+    for (int32_t i = 0; i < world->use_count; ++i)
+        if (!is_as_saved(build, world->store, fe__store_parent(world->store, world->uses[i].asset)))
+            fe__asset_renew(world, world->uses + i);
     fe__store_unlock(world->store);
 }
 

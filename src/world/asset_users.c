@@ -199,7 +199,7 @@ static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t ot
            b.high.z + margin >= part->low.z;
 }
 
-// What touches that part, or is near it, wakes and looks anew.
+// What touches that part of the shape, or is near it, wakes and looks anew. NULL: all of it
 static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
 {
     const fe__shape *field = world->shapes + index;
@@ -208,7 +208,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
         const fe__pair *p = world->pairs + pair;
         if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
-        if (!is_over(world, field, other, part)) continue;
+        if (part && !is_over(world, field, other, part)) continue;
         world->contacts[pair].surface.tolerance = 0.0f; // what moved by nothing has moved too far
         if (p->flags & FE__PAIR_LINKED) fe__wake(world, world->shapes[other].body);
         fe__pair_look_once(world, pair);
@@ -267,15 +267,10 @@ void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materia
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_users(m->world, asset);
 }
 
-void fe__assets_renew(fe_world *world)
+void fe__asset_renew(fe_world *world, const fe__asset_use *use)
 {
-    for (int32_t i = 0; i < world->use_count; ++i) {
-        const fe__asset *a = fe__store_asset(world->store, world->uses[i].asset);
-        const fe__asset *parent = fe__store_parent(world->store, a->index);
-        if (a->kind == FE__ASSET_MESH) renew_users(world, parent->index);
-        if (a->kind != FE__ASSET_HEIGHTFIELD) continue;
-        fe__form form = fe__heightfield_form(&a->field, a->index);
-        fe__bounds all = fe__samples_bounds(&a->field, &(fe__samples){0, 0, a->field.rows, a->field.columns});
-        renew_shapes(world, a->index, &form, &all);
-    }
+    fe__form form = fe__asset_form(world->store, use->asset);
+    renew_shapes(world, use->asset, &form, NULL);
+    for (int32_t shape = use->first_user; shape >= 0; shape = world->shapes[shape].next_user)
+        renew_materials(world, shape);
 }

@@ -37,7 +37,8 @@ void fe__assets_leave_worlds(fe_store *store, const fe__assets_entered *entered)
 void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *part, const float *heights);
 // Likewise the materials of a mesh: as many as it has. What touches it wakes.
 void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride);
-// What both do to a world, for all its shapes that have such assets: it missed an edit.
-void fe__assets_renew(fe_world *world);
+// Does to one world what both do: for the shapes of a heightfield or a mesh that holds something else than when their
+// boxes and pairs were made.
+void fe__asset_renew(fe_world *world, const fe__asset_use *use);
 
 #endif
