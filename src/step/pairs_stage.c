@@ -173,7 +173,7 @@ static void search_around_buried(search *s)
         search_still(s);
         s->meets_buried = 1;
         fe__tree_query_proxy(&s->world->moving_tree, &s->world->moving_tree, s->shape, found, s);
-    } else {
+    } else if (s->scratch->buried_count) {
         fe__tree_query_proxy(&s->world->moving_tree, &s->world->moving_tree, s->shape, found_of_buried, s);
     }
 }

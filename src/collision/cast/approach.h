@@ -24,7 +24,8 @@ typedef struct fe__approach {
     fe_dvec3 position, translation;          // of the other relative to the frame, m
     fe_dvec3 vertex[3], normal;              // of a triangle as the frame's core; normal of length 1
     double radius;                           // both radii: the cores touch at this distance, m
-    double gap, touch;                       // where a sweep stops; FE_SWEEP_TOUCH and what is rounded, m
+    double gap;                              // fe__stop_gap, m
+    double touch;                            // fe__touch_of, m
 } fe__approach;
 
 // Nearest points of the cores, with the other one's centre at `position`.
@@ -45,8 +46,8 @@ fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 vertex[3], fe_dvec3 normal, fe_d
 void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u,
                              double *w);
 
-// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are
-// apart; by how far is exact down to a touch.
+// The overlap of two cores as boxes: returns how far, and gives along which unit axis, the other must move out. A
+// result below -touch says that they are apart, and nothing of how far.
 double fe__core_depth(const fe__approach *a, fe_dvec3 *way_out);
 
 typedef struct fe__approach_hit {
@@ -56,7 +57,7 @@ typedef struct fe__approach_hit {
 } fe__approach_hit;
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
-// Two forms touch at the start across a normal: gives a point of that of the frame at which they do.
+// Of two forms that touch at the start across the normal: returns a point of the touch on the frame's form.
 fe_dvec3 fe__boxes_touching_point(const fe__approach *a, fe_dvec3 normal);
 
 // ---- hulls, and what has a rim (approach_curved.c) ------------------------------------------------------------------
@@ -64,7 +65,7 @@ static inline int32_t fe__is_curved_pair(const fe__approach *a)
 {
     return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;
 }
-// Of cores that overlap. `gap`: its point on the frame
+// How far cores that overlap do so; gives the unit way out for the other, and of `gap` the point on the frame alone.
 double fe__curved_depth(const fe__approach *a, fe_dvec3 *way_out, fe__core_gap *gap);
 // Of any two cores: returns the distance that is sure, whatever rounding made of the nearest points; 0: they overlap.
 double fe__sure_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);
@@ -88,14 +89,14 @@ typedef struct fe__core_overlap {
     fe__core_gap gap; // of round cores that are apart
 } fe__core_overlap;
 
-double fe__stop_gap(const fe__mover *mover);
-double fe__touch_of(const fe__mover *mover);
+double fe__stop_gap(const fe__mover *mover); // how far before the other form a sweep stops, m
+double fe__touch_of(const fe__mover *mover); // what overlaps or is apart by no more touches, m
 fe__core_overlap fe__approach_overlap(const fe__approach *a);
 static inline int32_t fe__is_inside(const fe__approach *a, const fe__core_overlap *overlap)
 {
     return overlap->depth > a->touch;
 }
-// Not inside at the start, as `overlap` tells
+// For what is not inside at the start, see fe__is_inside. 1: they meet, and the stop is at t <= limit.
 int32_t fe__approach_sweep(const fe__approach *a, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit);
 int32_t fe__core_kind_of(const fe__form *form);
 void fe__core_half(const fe__form *form, double half[3]);

@@ -4,8 +4,8 @@
 #include "collision/form/ground.h"
 
 #define FE_SWEEP_GAP 1e-7 // m
-// What overlaps by no more, or is no farther apart, touches, m: a hundredth of the gap, and above what rounding makes
-// of an exact touch
+// Forms touch when they overlap by no more than this, or are no farther apart, m. It is a hundredth of the gap, and
+// more than rounding makes of an exact touch.
 #define FE_SWEEP_TOUCH 1e-9
 
 // Three columns of a rotation: the images of the axes.

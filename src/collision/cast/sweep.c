@@ -145,13 +145,13 @@ static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, dou
     return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, 1.0, &t, &gap);
 }
 
-// What touches at the start is met at once, or never: of convex forms that overlap later on the way, those that touch
-// overlap from there on. So the way is asked at ever shorter parts, as the overlap may end soon; what slides along or
-// leaves overlaps nowhere.
+// Forms that touch at the start meet at once or never. Being convex, they overlap from the start on if they overlap
+// anywhere on the way, and what slides along or leaves overlaps nowhere. The overlap may end soon, so the way is asked
+// at its end and at ever shorter parts of it.
 static int32_t sweep_from_touch(const fe__approach *s, const fe__core_overlap *start, fe__approach_hit *hit)
 {
     enum { PARTS = 24 };
-    const double shorter = 0.25, deeper = 2.0; // touches: beyond what the start may have of it
+    const double shorter = 0.25, deeper = 2.0; // in touches: the start may overlap by one
     fe__approach later = *s;
     double t = 1.0;
     for (int32_t i = 0; i < PARTS; ++i, t *= shorter) {

@@ -2,8 +2,8 @@
 //
 // Called by the queries with both forms in the frame of the standing one, in double. Everything rests on the exact
 // forms: no skin, no shrinking. A sweep stops FE_SWEEP_GAP before the other form, so that rounding never carries it in;
-// what overlaps at the start by more than a touch is a hit at t = 0, and what starts within the gap and comes nearer
-// stops at once. What does not come nearer is never hit, however close it passes.
+// an overlap of more than a touch at the start is a hit at t = 0, and what starts within the gap and comes nearer stops
+// at once. What does not come nearer is never hit, however close it passes.
 #ifndef FE_COLLISION_CAST_SWEEP_H
 #define FE_COLLISION_CAST_SWEEP_H
 #include "collision/cast/mover.h"

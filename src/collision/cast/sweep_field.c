@@ -136,7 +136,7 @@ static double core_along(const fe__approach *p, fe_dvec3 m)
     return p->other_half[0] * fe__absd(way.x) + p->other_half[1] * fe__absd(way.y) + p->other_half[2] * fe__absd(way.z);
 }
 
-// Over the plane of the triangle until `limit`, or touching it, or under it by more than any stop
+// 1: until `limit` it is above the plane of the triangle or touches it, or is below it by more than any stop.
 static int32_t stays_on_one_side(const fe__approach *p, double limit)
 {
     const fe_dvec3 *v = p->vertex, n = p->normal;
@@ -144,7 +144,7 @@ static int32_t stays_on_one_side(const fe__approach *p, double limit)
            spare = p->radius + 2.0 * p->gap;
     double start = height_at(p, 0.0), end = height_at(p, limit), lowest = fe__mind(start, end) - spare,
            highest = fe__maxd(start, end) + spare;
-    // what never comes below the plane slides over it, or leaves it
+    // The whole way counts: what comes below the plane behind the limit touches it now, and may be met.
     if (fe__mind(start, height_at(p, 1.0)) - reach_across(p, -1.0) >= -p->touch) return 1;
     if (lowest > 0.0) return lowest - core_along(p, fe__dscale(-1.0, n)) > fe__maxd(fe__maxd(b, c), 0.0);
     if (highest < 0.0) return highest + core_along(p, n) < fe__mind(fe__mind(b, c), 0.0);
