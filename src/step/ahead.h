@@ -11,7 +11,7 @@
 // it). Not for heightfields.
 int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe__places *out_touch);
 
-// Do they meet within the step, if each moves as it does now? Not for heightfields and meshes, which are no convex forms.
+// Do they meet within the step, if each moves as it does now? Not for heightfields and meshes: they are not convex.
 int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt);
 
 #endif

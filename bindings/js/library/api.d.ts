@@ -1496,9 +1496,9 @@ export class WorldCalls {
      * 
      * Of bodies in one place, a thousand born in a point, each touches the 24 that are deepest in it: of two dynamic
      * bodies that both have more than 48 neighbours, a contact is left out when it is among the 24 deepest of neither,
-     * by the overlap of their boxes. Among thousands each looks at some hundred of the nearest. In the steps that follow
-     * they look for each other again. What was left out is counted in fe_counters.contacts_left_out, of thousands at
-     * least so many.
+     * by the overlap of their boxes. A body that meets more than 256 new ones at once looks at 48 of those beside it. In
+     * the steps that follow they look for each other again. fe_counters.contacts_left_out counts what was left out; where
+     * thousands are in one place it is a lower bound.
      * @param dt  0..1 s; 0 updates contacts and events and moves nothing. Less than 1e-5 s counts as 0 */
     step(dt: number): void;
     /** m/s2. A change wakes all dynamic bodies. */
@@ -1606,10 +1606,9 @@ export class WorldCalls {
      * 
      * It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. A body that it overlaps at
      * the start is a hit at fraction 0, flagged FE_HIT_STARTED_INSIDE. One that it starts to touch is a hit at fraction 0
-     * without the flag; one that it leaves or slides along is no hit. What overlaps by a nanometre at most touches, since
-     * that is what doubles and rotations leave of an exact touch. Heightfields are passed from below, one-sided meshes
-     * from behind; what cuts their surface overlaps them. At equal fractions what overlaps comes first, then the body
-     * created first.
+     * without the flag; one that it leaves or slides along is no hit. An overlap of up to a nanometre is a touch: rounding
+     * leaves as much of an exact one. Heightfields are passed from below, one-sided meshes from behind; what cuts their
+     * surface overlaps them. At equal fractions what overlaps comes first, then the body created first.
      * @param geometry     sphere, capsule, box, cylinder, cone or hull; a sphere of radius 0 sweeps as a ray
      * @param start        pose of the geometry at the start
      * @param translation  m; zero asks what overlaps
