@@ -1,6 +1,7 @@
 // What a world takes of its host's memory: a body of a moving heap, bodies that were born in one point.
 #include "counting_allocator.h"
 #include "determinism/golden.h"
+#include "robust/round_forms.h"
 
 static const double DT = 1.0 / 60.0;
 // Of worlds whose bodies are born in one point: arguments of the program
@@ -141,28 +142,10 @@ static fe_asset make_compound(fe_world *world, float size)
 static fe_geometry geometry_of(int32_t form, float r, fe_asset hull, fe_asset compound)
 {
     fe_geometry g;
-    switch (form) {
-    case 0:
-        fe_geometry_sphere(&g, r);
-        break;
-    case 1:
-        fe_geometry_capsule(&g, r, r);
-        break;
-    case 2:
-        fe_geometry_cylinder(&g, r, r);
-        break;
-    case 3:
-        fe_geometry_cone(&g, 2.0f * r, r);
-        break;
-    case 4:
-        fe_geometry_hull(&g, hull);
-        break;
-    case 5:
-        fe_geometry_compound(&g, compound);
-        break;
-    default:
-        fe_geometry_box(&g, r, r, r);
-    }
+    if (form < ROUND_FORMS) return round_form(form, r);
+    fe_geometry_box(&g, r, r, r);
+    if (form == ROUND_FORMS) fe_geometry_hull(&g, hull);
+    if (form == ROUND_FORMS + 1) fe_geometry_compound(&g, compound);
     return g;
 }
 

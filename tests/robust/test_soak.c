@@ -11,6 +11,7 @@
 #include "fe_test.h"
 #include "core/hash.h"
 #include "robust/counting_allocator.h"
+#include "robust/round_forms.h"
 #include "support/any_joint.h"
 
 #ifdef FE_SANITIZED
@@ -142,29 +143,14 @@ static fe_geometry any_geometry(soak *s)
 {
     fe_geometry g;
     float r = between(s, 0.15f, 0.35f);
-    switch (below(s, 7)) {
-    case 0:
-        fe_geometry_sphere(&g, r);
-        break;
-    case 1:
-        fe_geometry_capsule(&g, r, 0.7f * r);
-        break;
-    case 2:
-        fe_geometry_cylinder(&g, r, r);
-        break;
-    case 3:
-        fe_geometry_cone(&g, 2.0f * r, r);
-        break;
-    case 4:
+    int32_t form = below(s, ROUND_FORMS + 3);
+    if (form < ROUND_FORMS) return round_form(form, r);
+    fe_geometry_box(&g, r, 0.8f * r, 1.2f * r);
+    if (form == ROUND_FORMS) {
         fe_geometry_hull(&g, s->hulls[below(s, HULLS)]);
         g.scale = fe_make_vec3(1.0f, 3.0f * r, 1.0f);
-        break;
-    case 5:
-        fe_geometry_compound(&g, s->compound);
-        break;
-    default:
-        fe_geometry_box(&g, r, 0.8f * r, 1.2f * r);
     }
+    if (form == ROUND_FORMS + 1) fe_geometry_compound(&g, s->compound);
     return g;
 }
 

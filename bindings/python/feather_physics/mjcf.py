@@ -399,8 +399,11 @@ class MjcfReader(GeomReader):
         if "fromto" not in element.attributes:
             return self.pose(element)
         ends = self.numbers(element, "fromto", 6)
+        way = [b - a for a, b in zip(ends[:3], ends[3:])]
+        if math.hypot(*way) < 1e-9:
+            raise self.fail(element, "fromto: two places are needed")
         x, y, z = ((a + b) / 2 for a, b in zip(ends[:3], ends[3:]))
-        return Frame((x, y, z), from_z([b - a for a, b in zip(ends[:3], ends[3:])]))
+        return Frame((x, y, z), from_z(way))
 
     def attach(self, element: Element, at: Frame, place: Place) -> None:
         """A body of another file, or all of its bodies, with that file's settings; its names get a prefix."""

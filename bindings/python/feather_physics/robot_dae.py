@@ -13,6 +13,8 @@ from .frames import about, rotate
 from .robot_xml import check_encoding
 
 MOST_DEPTH, MOST_PLACED = 100, 10_000  # of nodes in one another; of geometries in a scene
+MOST_READ = 15  # numbers for each triangle that a file may have: a geometry is read as often as it is placed
+MOST = 1e18  # of a number's magnitude
 
 # Rows of a matrix, the last one (0, 0, 0, 1) left out
 Matrix = List[List[float]]
@@ -41,7 +43,7 @@ class _Dae:
         self.file, self.most = file, most
         self.points: List[float] = []
         self.triangles: List[int] = []
-        self.placed = 0
+        self.placed = self.read = 0
         check_encoding(data, file)
         try:
             self.root = ElementTree.fromstring(data, ElementTree.XMLParser(target=_NoTypes()))
@@ -71,8 +73,11 @@ class _Dae:
             found = [kind(word) for word in (element.text or "").split()] if element is not None else []
         except ValueError:
             found = [math.nan]
-        if not all(map(math.isfinite, found)):
+        if not all(-MOST <= x <= MOST for x in found):
             raise self.fail("a list has what is no finite number")
+        self.read += len(found)
+        if self.read > MOST_READ * self.most:
+            raise self.fail(f"more than {MOST_READ * self.most} numbers in the geometries that it places")
         return found
 
     # ---- where geometries are

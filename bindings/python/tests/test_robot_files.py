@@ -19,6 +19,7 @@ from robots import compare_bodies, near, plain
 from feather_physics import InvalidArgumentError, SceneError, UnsupportedError, VersionError, World
 from feather_physics.frames import about, multiply, rotate
 from feather_physics.mjcf import load_mjcf, save_mjcf
+from feather_physics.robot_dae import read_dae
 from feather_physics.robot_mesh import find_file, mass_of, read_mesh
 from feather_physics.scene import Scene
 from feather_physics.urdf import load_urdf, save_urdf
@@ -336,6 +337,25 @@ def test_collada(tmp_path: Path, form: str) -> None:
         read_mesh(str(tmp_path / "m.dae"), (1, 1, 1))
 
 
+@pytest.mark.parametrize("digits", [19, 400, 5000])
+def test_a_place_of_many_digits_is_refused(tmp_path: Path, digits: int) -> None:
+    """More than a float, and more than Python reads."""
+    (tmp_path / "m.dae").write_text(DAE.format(form=TRIANGLES.replace("0 0 2 0", "9" * digits + " 0 2 0"), scale=1))
+    with pytest.raises(SceneError):
+        read_mesh(str(tmp_path / "m.dae"), (1, 1, 1))
+
+
+def test_a_geometry_is_not_placed_without_end() -> None:
+    """One that has many numbers and no triangle, placed again and again."""
+    form = '<polylist><input semantic="VERTEX" source="#v" offset="0"/><vcount></vcount><p>' + "0 1 " * 1000 + "</p></polylist>"
+    text = DAE.format(form=form, scale=1)
+    place = '<instance_geometry url="#g"/>'
+    with pytest.raises(SceneError, match="numbers"):
+        read_dae(text.replace(place, place * 100).encode(), "m.dae", 1000)
+    with pytest.raises(SceneError, match="no COLLADA file with triangles"):
+        read_dae(text.encode(), "m.dae", 1000)
+
+
 def test_one_face_of_a_large_file_takes_little_memory(tmp_path: Path) -> None:
     """Refused with less than four times the bytes of the file, and without them in the message."""
     (tmp_path / "m.obj").write_bytes(b"v 0 0 0\n" * 3 + b"f" + b" 1 2 3" * ((16 << 20) // 6) + b"\n")
@@ -408,7 +428,7 @@ MODEL = """<mujoco model="m"><compiler angle="radian" settotalmass="3"/><option 
 <default><geom density="700"/><default class="c"><joint damping="1"/></default></default>
 <asset><mesh name="t" vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3 0 3 2 1 2 3"/></asset><worldbody><geom type="plane" size="1 1 1"/>
 <replicate count="3" offset="1 0 0" euler="0 0 1"><body name="b" pos="0 0 1"><joint name="j" class="c" range="-1 1"/><joint name="k" axis="1 1 0"/>
-<geom type="mesh" mesh="t"/><site name="s" pos="0 0 1"/><body name="e" quat="1 1 0 0"><geom type="ellipsoid" size="0.1 0.2 0.3"/></body></body></replicate>
+<geom type="mesh" mesh="t"/><site name="s" pos="0 0 1"/><site name="f" fromto="0 0 0 0 0 1"/><body name="e" quat="1 1 0 0"><geom type="ellipsoid" size="0.1 0.2 0.3"/></body></body></replicate>
 <body name="x" mocap="true"><geom size="0.1"/></body><composite type="cable" count="4" size="1" offset="0 0 3"><geom type="box" size="0.1 0.1 0.1"/></composite>
 </worldbody><contact><exclude body1="b0" body2="b1"/></contact><equality><connect body1="b" anchor="0 0 0"/></equality>
 <actuator><position joint="j" kp="3" ctrlrange="-1 1"/></actuator></mujoco>"""
@@ -432,6 +452,15 @@ def use(scene: Scene, is_built: bool) -> None:
     if is_built:
         with World() as world:
             scene.build(world)
+
+
+def test_a_site_from_one_place_to_the_same_is_left_out() -> None:
+    """Nothing depends on a site: one without a direction is an error when strict alone."""
+    site = '<mujoco><worldbody><body name="b"><freejoint/><geom size="0.1"/><site name="s" fromto="0 0 0 0 0 {}"/></body></worldbody></mujoco>'
+    assert [frame.name for frame in load_mjcf(site.format(1), strict=True).frames] == ["s"]
+    assert load_mjcf(site.format(0)).frames == []
+    with pytest.raises(SceneError, match="two places"):
+        load_mjcf(site.format(0), strict=True)
 
 
 @pytest.mark.parametrize("load, text", [(load_urdf, ROBOT), (load_mjcf, MODEL)])
