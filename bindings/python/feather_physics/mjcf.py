@@ -299,7 +299,8 @@ class MjcfReader(GeomReader):
         child_class = element.attributes.get("childclass", place.child_class)
         is_free = self.compiler.is_global and not {"pos", "quat", "euler", "axisangle"} & set(element.attributes)
         frame = self.of_geoms(element, child_class) if is_free else place.frame.then(at).then(self.pose(element))
-        body = SceneBody(self.name(element, "body", f"body{len(self.model.names['body'])}"), "static", frame.position, frame.rotation)
+        name = self.name(element, "body", f"body{len(self.model.names['body'])}")
+        body = SceneBody(name, "static", frame.position, frame.rotation)
         # where all places are the world's, the body's own frame is taken back
         origin = inside(frame, Frame()) if self.compiler.is_global else Frame()
         inner = list(self.parts(element, origin, child_class))
@@ -571,7 +572,8 @@ class MjcfReader(GeomReader):
         joint = self.full(made.attributes["joint"])
         if joint not in self.model.names["joint"]:
             raise self.fail(element, f"there is no joint {joint[:60]!r}")
-        actuator = SceneActuator(self.name(element, "actuator", f"actuator{len(self.model.names['actuator'])}"), element.tag, joint)
+        name = self.name(element, "actuator", f"actuator{len(self.model.names['actuator'])}")
+        actuator = SceneActuator(name, element.tag, joint)
         if "gear" in made.attributes:
             actuator.gear = self.some_numbers(made, "gear", 1, 6)[0]
         actuator.gain = self.number(made, {"position": "kp", "velocity": "kv"}.get(element.tag, "gain"), 1.0)

@@ -31,8 +31,10 @@ def _geom(shape: SceneShape, indent: str) -> str:
         size = [size[1], size[0]] if size else [0.0, 0.0, 1.0]
     friction = 1.0 if shape.friction is None else shape.friction
     if shape.form == "mesh":
-        return f'{indent}<geom type="mesh" mesh="{escaped(shape.mesh)}" {_pose(frame)} density="{shape.density!r}" friction="{friction!r}"/>\n'
-    return f'{indent}<geom type="{shape.form}" size="{row(size)}" {_pose(frame)} density="{shape.density!r}" friction="{friction!r}"/>\n'
+        form = f'type="mesh" mesh="{escaped(shape.mesh)}"'
+    else:
+        form = f'type="{shape.form}" size="{row(size)}"'
+    return f'{indent}<geom {form} {_pose(frame)} density="{shape.density!r}" friction="{friction!r}"/>\n'
 
 
 def _freedom(one: Any, kind: str, frame: Frame, place: Sequence[float], axis: Sequence[float], indent: str) -> str:

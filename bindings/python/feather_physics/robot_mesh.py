@@ -122,11 +122,15 @@ def _msh(data: bytes, file: str) -> Triangles:
     return list(struct.unpack_from(f"<{3 * points}f", data, 16)), triangles
 
 
-READERS: Dict[str, Callable[[bytes, str], Triangles]] = {".stl": _stl, ".obj": _obj, ".msh": _msh, ".dae": lambda data, file: read_dae(data, file, MOST_TRIANGLES)}
+def _dae(data: bytes, file: str) -> Triangles:
+    return read_dae(data, file, MOST_TRIANGLES)
+
+
+READERS: Dict[str, Callable[[bytes, str], Triangles]] = {".stl": _stl, ".obj": _obj, ".msh": _msh, ".dae": _dae}
 
 
 def read_mesh(file: str, scale: Sequence[float]) -> Triangles:
-    """Of an STL, an OBJ or a COLLADA file, times the scale along each axis."""
+    """Of an STL, OBJ, COLLADA or MSH file, times the scale along each axis."""
     kind = os.path.splitext(file)[1].lower()
     if kind not in READERS:
         raise SceneError(f"{file}: STL, OBJ, DAE and MSH are read")

@@ -84,10 +84,11 @@ class SceneFreedom:
 @dataclass
 class SceneJoint:
     """A joint of two bodies, None is the world: "fixed", "hinge", "slider", "ball", "planar", "configurable", "chain"
-    (one joint after another, from `a` to `b`, each with axes of its own) or "free" (none). The place, the axis and the rotation, which is that of a configurable joint's frame, are the scene's, where
-    the bodies stand. Limits: rad or m, None are none; cone: rad, of a ball; effort: N m or N, velocity: rad/s or m/s,
-    as the file has them; damping: N m s/rad or N s/m; friction: N m or N; stiffness: N m/rad or N/m, of a spring that
-    pulls to `rest`; armature: kg m2, what the motor's rotor adds to the inertia about the axis."""
+    (one joint after another, from `a` to `b`, each with axes of its own) or "free" (none). The place, the axis and the
+    rotation, which is that of a configurable joint's frame, are the scene's, where the bodies stand. Limits: rad or m,
+    None are none; cone: rad, of a ball; effort: N m or N, velocity: rad/s or m/s, as the file has them; damping: N m
+    s/rad or N s/m; friction: N m or N; stiffness: N m/rad or N/m, of a spring that pulls to `rest`; armature: kg m2,
+    what the motor's rotor adds to the inertia about the axis."""
 
     name: str
     type: str
