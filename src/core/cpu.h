@@ -16,7 +16,7 @@ typedef struct fe__cpu_registers {
 
 // Bit s for set s of fe_simd that may run
 uint32_t fe__simd_of_cpu(const fe__cpu_registers *cpu);
-// Likewise, for this machine; asked once
+// The same of this machine, which is asked once
 uint32_t fe__simd_here(void);
 
 #endif

@@ -74,7 +74,7 @@ static int32_t is_named(const fe_recorder *r, const fe__chunk *chunk)
     return 0;
 }
 
-// Contents that were last named before the step
+// Forgets the contents that were last named before the step.
 static void forget_contents(fe_recorder *r, int64_t step)
 {
     int32_t old = 0;
@@ -83,7 +83,7 @@ static void forget_contents(fe_recorder *r, int64_t step)
     memmove(r->contents, r->contents + old, (size_t)r->content_count * sizeof *r->contents);
 }
 
-// Which chunks go: all but the header, contents that are named, and what is behind the first `keyframes` keyframes
+// Drops all chunks but the header, contents that are named, and what is behind the first `keyframes` keyframes.
 static void forget_chunks(fe_recorder *r, int32_t keyframes)
 {
     fe__chunk **at = &r->first, *last = NULL;
@@ -114,7 +114,7 @@ static int64_t step_of_keyframe(const fe_recorder *r, int32_t number)
     return r->step;
 }
 
-// The first keyframe and what follows it, up to the next one, and contents that nothing else names
+// Drops the first keyframe, what follows it up to the next one, and contents that nothing later names.
 static void forget_oldest(fe_recorder *r)
 {
     forget_contents(r, step_of_keyframe(r, 1));

@@ -11,7 +11,7 @@
 #include <string.h>
 
 // ---- contents of assets --------------------------------------------------------------------------------------------
-// 1: it is in the file. Named now, it is the last to be forgotten
+// 1: it is in the file. As it is named now, it will be the last to be forgotten.
 static int32_t name_content(fe_recorder *r, fe__asset_key key)
 {
     for (int32_t i = r->content_count - 1; i >= 0; --i) {
@@ -24,8 +24,8 @@ static int32_t name_content(fe_recorder *r, fe__asset_key key)
     return 0;
 }
 
-// Of what was read, an asset may come and go for ever: the half that was named longest ago is forgotten. It is written
-// once more should it be named again
+// Where chunks are read and given away, assets may come and go for ever. So of many contents the half that was named
+// longest ago is forgotten; one that is named again is written once more.
 static int32_t reserve_content(fe_recorder *r)
 {
     enum { MANY = 256 };
@@ -74,7 +74,7 @@ static void forget_asset(fe_recorder *r, fe_asset handle)
         if (r->assets[i].handle == handle) r->assets[i] = r->assets[--r->asset_count];
 }
 
-// Those that no call can name any more
+// Forgets the assets that no call can name any more.
 static void forget_dead(fe_recorder *r, const fe_store *store)
 {
     int32_t slot, count = 0;

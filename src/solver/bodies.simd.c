@@ -142,8 +142,8 @@ static void load(fe__solver *s, const fe__records *of, int32_t first, int32_t co
 
 // ---- gyroscopic torque ----------------------------------------------------------------------------------------------
 // In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the
-// energy and |I w|; two Newton steps from m = w solve it. The result is brought to the energy before, of
-// which two steps leave something open, and rounding takes a share in each substep.
+// energy and |I w|; two Newton steps from m = w solve it. The result is brought to the energy before: two steps leave
+// some of it open, and rounding would take a share in each substep.
 
 // rad/s about a principal axis, two centuries a turn; also of the axes, what they lean. The torque is quadratic in both
 #define LEAST_SPIN 1e-9f

@@ -337,7 +337,7 @@ static int32_t give_form(fe__build *b, int32_t index, int32_t first_user, int32_
     return 1;
 }
 
-// Each of the row's shapes to the users of its own record
+// Adds each of the row's shapes to the users of its own record.
 static int32_t add_uses_apart(fe__build *b, int32_t first_user, int32_t rows)
 {
     fe_world *w = b->world;

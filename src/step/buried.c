@@ -43,7 +43,7 @@ static int32_t count_buried(void *context, int32_t other)
     return c->met <= FE__BURIED_BY;
 }
 
-// How many buried ones each meets, counted no farther than in the search before
+// Counts how many buried ones each meets, no farther than the search before counted.
 static void count_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
@@ -82,7 +82,7 @@ static fe_dvec3 centre_of(const fe_world *w, int32_t shape)
     return fe__dadd(fe__dscale(0.5, b.low), fe__dscale(0.5, b.high));
 }
 
-// The lowest 21 bits, two zeros before each
+// Puts two zeros before each of the lowest 21 bits.
 static uint64_t spread(uint64_t bits)
 {
     bits = (bits | bits << 32) & UINT64_C(0x001F00000000FFFF);
@@ -117,7 +117,7 @@ static fe__bounds box_of_centres(const fe__step *step)
     return box;
 }
 
-// By the curve; in one place by their creation
+// Sorts them along the curve, and those in one place by their creation.
 static void sort_buried(const fe__step *step, fe__sort_item *items)
 {
     const fe_world *w = step->world;

@@ -11,7 +11,7 @@
 
 enum { FE__BURIED_BY = 256, FE__BESIDE = 24 };
 
-// a dynamic body's, and no trigger
+// Only a shape of a dynamic body that is no trigger may be.
 static inline int32_t fe__may_be_buried(const fe_world *w, int32_t shape)
 {
     const fe__shape *s = w->shapes + shape;

@@ -160,7 +160,7 @@ static void take_flushed(float *out, const float *in)
     *(quad *)out = a;
 }
 
-// What constraints gave a velocity in the last pass, too, ends at the limit
+// Constraints change velocities after the last substep's limit: this is the limit at the end of the step.
 static void limit_speed(float *v, float most)
 {
     if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > most * most)) return;

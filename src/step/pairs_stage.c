@@ -118,7 +118,7 @@ static int32_t is_static(const search *s)
     return s->world->bodies[s->world->shapes[s->shape].body].type == FE_BODY_STATIC;
 }
 
-// What stands still: of one that moves
+// Searches what stands still, for a shape that moves.
 static void search_still(search *s)
 {
     const fe_world *w = s->world;
@@ -156,7 +156,7 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
     judge_meetings(&s);
 }
 
-// Of all shapes, those that moved and those that a buried one may have moved to
+// Of all shapes, those that moved search, and those that a buried one may have moved to.
 static void search_around_buried(search *s)
 {
     const fe__shape *shape = s->world->shapes + s->shape;

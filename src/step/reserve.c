@@ -53,7 +53,7 @@ static int32_t to_come(const fe__step *step)
     return step->scratch->candidate_count + atomic_load(&step->scratch->due_count);
 }
 
-// Awake pairs with triggers that do not wait. Where they are few, it is not worth a walk
+// Counts the awake pairs with triggers that do not wait; 0 where they are few, which is not worth a walk.
 static int32_t count_sensors(const fe_world *w)
 {
     enum { FEW = 16 };
@@ -219,7 +219,7 @@ static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int3
     return b;
 }
 
-// With those that get no row
+// The contacts of the bound, and the pairs that get no row
 static int32_t pairs_of(const fe__step *step, const fe__graph_bound *b) { return b->contacts + step->scratch->sensors; }
 
 // What is sorted, or left its box, lies where the rows do

@@ -56,7 +56,7 @@ typedef struct fe__step_scratch {
     uint8_t *is_buried;       // by shape, see step/buried.h
     int32_t *buried;          // those shapes
     int32_t is_buried_capacity, buried_capacity, buried_count;
-    _Atomic int32_t buried_meetings; // new ones of two that are both buried, at least, twice each
+    _Atomic int32_t buried_meetings; // new pairs of two buried shapes, at least so many, each counted twice
 
     int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
     _Atomic int32_t due_count, waiting_count; // see step/due.c

@@ -61,7 +61,7 @@ struct fe_world {
     int32_t shape_capacity;
     fe_store *store;         // of the assets that shapes have; its own, of its definition, or of whom it is a clone
     fe__store_member member; // in the store's list
-    fe__asset_use *uses;     // by rising asset; under the store's lock, as their number
+    fe__asset_use *uses;     // by rising asset; they and their number under the store's lock
     int32_t use_count, use_capacity;
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation

@@ -7,7 +7,7 @@
 #include "collision/form/support.h"
 #include "collision/manifold/kernels.h"
 
-// On the surface, A's frame
+// A line of a form's surface, in A's frame
 typedef struct line {
     fe_vec3 start, way; // from one end to the other
     float radius[2];    // across it, at either end: a cone's vanishes at its tip
@@ -26,7 +26,7 @@ static line line_of(const fe__form *form, const fe__face *side, fe_vec3 directio
     return l;
 }
 
-// What B's line is seen from A's, both as functions of the share s of the way along A's: linear
+// The stretch that two lines have in common: numbers of B's are linear in the share s of the way along A's.
 typedef struct stretch {
     float from, to;     // of s
     float start, scale; // of B's line: t = (s - start) scale
@@ -34,7 +34,7 @@ typedef struct stretch {
     fe_vec3 across;     // unit
 } stretch;
 
-// Keeps where  at + rate s >= 0
+// Keeps the part of the stretch where  at + rate s >= 0
 static void keep(stretch *part, float at, float rate)
 {
     if (rate > 0.0f)

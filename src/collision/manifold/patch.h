@@ -47,7 +47,7 @@ typedef struct fe__terrain {
     const fe_vec3 *known;
     int32_t known_count;
     int32_t is_last; // the look is one at the end of B's way (ground.near)
-    float fall;      // m, how much lower B may be at the look's pose than what carries it lets it come
+    float fall;      // m, how far B may have fallen, at the look's pose, below what carries it
 } fe__terrain;
 
 #endif

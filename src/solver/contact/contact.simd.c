@@ -39,7 +39,7 @@
 // comes at once rotates the body until the normals balance its moment, a substep later; friction then makes good what
 // was lost: at most 1.25 times the force. A sliding contact requests more from a hundredth of a m/s on.
 #define BREAKAWAY 1.3f
-// Of a slip, the multiple that friction can stop at most in the direction of a contact that slides: far from infinity
+// The most that s of `slide` may be, where the slip all but vanishes: so that its products stay finite
 #define MOST_PART 1e6f
 // A change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
 // most. Of what lands, the share of its friction: it keeps what is wrong then.

@@ -70,7 +70,7 @@ static inline void fe__odometer_turn(fe__odometer *o, float half_sine)
 
 static inline int32_t fe__has_direction(const float *n) { return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f; }
 
-// What a deferral has of its contact, which has no points
+// Copies what a deferral has of its contact, which has no points.
 static inline void fe__deferral_aim(fe__deferral *p, const fe__contact *m)
 {
     int32_t has_direction = fe__has_direction(m->normal);

@@ -329,10 +329,10 @@ FE_INLINE wide NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
 
 // ---- friction -------------------------------------------------------------------------------------------------------
 
-// What surfaces add to the slip: that of a belt; and that of a kinematic A, which rotates on: it is to be that of the
-// middle of the substep, whose velocity led from pose to pose,
+// What surfaces add to the slip: the velocity of a belt, and a correction where a kinematic A rotates. A's velocity is
+// to be that of the middle of the substep, which led from pose to pose,
 //     wA x r - h/2 wA x (wA x r)         r: to B's centre
-// and not that of the end. What rides on A would get the next substep's velocity half a substep early, and creep
+// and not that of its end. What rides on A would get the next substep's velocity half a substep early, and creep
 // inwards by w^2 r h / 2.
 FE_INLINE wide3 NAMED(surface_slip)(const SPECIAL_ROW *x, const pair *p, int kind)
 {
