@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from array import array
 from dataclasses import asdict, fields
 from typing import Any, Dict, List, Set
 
@@ -81,6 +82,24 @@ def _there_is(name: Any, names: Set[str], kind: str, what: str) -> None:
         raise SceneError(f"{what}: there is no {kind} {_short(name)}")
 
 
+def _array(kind: str, values: Any) -> Any:
+    """Numbers of one kind; None where they are none."""
+    try:
+        return array(kind, values)
+    except (TypeError, OverflowError):
+        return None
+
+
+def _check_mesh(mesh: Any, front: str = "") -> None:
+    """Points and the places of corners among them. Each build asks: so not one by one."""
+    name = _short(mesh.name)[1:-1]
+    points, corners = _array("d", mesh.points), _array("q", mesh.triangles)
+    if not points or len(points) % 3 or not (-MOST <= min(points) <= max(points) <= MOST and sum(points) <= MOST**2):
+        raise SceneError(f"{front}points of {name}: three numbers each are needed")
+    if corners is None or len(corners) % 3 or (corners and not 0 <= min(corners) <= max(corners) < len(points) // 3):
+        raise SceneError(f"{front}triangles of {name}: three places of points each are needed")
+
+
 def _check_body(body: Any, meshes: Set[str]) -> None:
     what = f"body {_short(body.name)}"
     _check_record(body, what)
@@ -127,6 +146,7 @@ def check(scene: Any) -> None:
     """Whether it can be built, but for the ranges that a world has. A SceneError names what is wrong."""
     for mesh in scene.meshes:
         _check_record(mesh, f"mesh {_short(mesh.name)}")
+        _check_mesh(mesh)
     for named, kind in ((scene.bodies, "bodies"), (scene.joints, "joints"), (scene.frames, "frames")):
         for record in named:
             if not isinstance(record.name, str):
@@ -193,11 +213,7 @@ def _record(kind: Any, item: Any, what: str) -> Any:
 
 def _mesh(item: Any) -> Any:
     mesh = _record(s.SceneMesh, item, "meshes")
-    if not mesh.points or len(mesh.points) % 3 or not all(map(_number, mesh.points)):
-        raise SceneError(f"from_json: points of {_short(mesh.name)[1:-1]}: three numbers each are needed")
-    places = range(len(mesh.points) // 3)
-    if len(mesh.triangles) % 3 or not all(type(corner) is int and corner in places for corner in mesh.triangles):
-        raise SceneError(f"from_json: triangles of {_short(mesh.name)[1:-1]}: three places of points each are needed")
+    _check_mesh(mesh, "from_json: ")
     return mesh
 
 

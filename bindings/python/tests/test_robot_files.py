@@ -22,6 +22,7 @@ from feather_physics.mjcf import load_mjcf, save_mjcf
 from feather_physics.robot_dae import read_dae
 from feather_physics.robot_mesh import find_file, mass_of, read_mesh
 from feather_physics.scene import Scene
+from feather_physics.scene_records import SceneBody, SceneMesh, SceneShape
 from feather_physics.urdf import load_urdf, save_urdf
 
 DRAWS = int(os.environ.get("FEATHER_DRAWS", "300"))
@@ -452,6 +453,37 @@ def use(scene: Scene, is_built: bool) -> None:
     if is_built:
         with World() as world:
             scene.build(world)
+
+
+CORNER = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+SIDES = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    "points, triangles",
+    [
+        (["a"] * 12, []),
+        ([None] * 12, []),
+        ([*CORNER[:11], math.nan], []),
+        ([*CORNER[:11], math.inf], []),
+        ([10**400, *CORNER[1:]], []),
+        (CORNER[:4], []),
+        ([], []),
+        (CORNER, [0, 1]),
+        (CORNER, [*SIDES[:11], 4]),
+        (CORNER, [*SIDES[:11], -1]),
+        (CORNER, [*SIDES[:11], 1.0]),
+        (CORNER, [*SIDES[:11], "x"]),
+    ],
+)
+def test_a_mesh_that_is_none_builds_nothing(points: List[Any], triangles: List[Any]) -> None:
+    """A program may make a scene too: what is wrong in it is a SceneError, and nothing is left in the world."""
+    body = SceneBody("b", "static", shapes=[SceneShape("mesh", [], mesh="m")])
+    with World() as world:
+        with pytest.raises(SceneError, match="of m: three"):
+            Scene(bodies=[body], meshes=[SceneMesh("m", points, triangles)]).build(world)
+        assert not world.bodies
+        assert len(Scene(bodies=[body], meshes=[SceneMesh("m", CORNER, SIDES)]).build(world).bodies) == 1
 
 
 def test_a_site_from_one_place_to_the_same_is_left_out() -> None:
