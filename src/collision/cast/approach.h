@@ -95,6 +95,8 @@ static inline int32_t fe__is_inside(const fe__approach *a, const fe__core_overla
 {
     return overlap->depth > a->touch;
 }
+// Of cores that touch: a point on the frame's at which they do
+fe_dvec3 fe__touching_point(const fe__approach *a, const fe__core_overlap *touch);
 // Not inside at the start, as `overlap` tells
 int32_t fe__approach_sweep(const fe__approach *a, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit);
 int32_t fe__core_kind_of(const fe__form *form);
