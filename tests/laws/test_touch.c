@@ -130,7 +130,8 @@ static double an_exact_touch_is_no_overlap(dice *d, char *told)
 }
 
 // Turns about the common normal by up to ten rad, as it goes
-static const char *what_fails_turning(const scene *s, const mover *m, double gap, way w, vec d, double yaw, double heading)
+static const char *what_fails_turning(const scene *s, const mover *m, double gap, way w, vec d, double yaw,
+                                      double heading)
 {
     const vec up = v3(0, 1, 0);
     fe_transform start = {.position = v3(0, m->height + gap, 0), .rotation = turned(up, heading)}, stop = start;

@@ -1,7 +1,16 @@
 // What lies on a kinematic body that rotates, and has the friction for it, stays where it is on it.
 #include "laws/law.h"
 
-typedef enum table_kind { TABLE_BOX, TABLE_HULL, TABLE_PRISM, TABLE_COMPOUND, TABLE_MESH, TABLE_CYLINDER, TABLE_CONE, TABLE_KINDS } table_kind;
+typedef enum table_kind {
+    TABLE_BOX,
+    TABLE_HULL,
+    TABLE_PRISM,
+    TABLE_COMPOUND,
+    TABLE_MESH,
+    TABLE_CYLINDER,
+    TABLE_CONE,
+    TABLE_KINDS
+} table_kind;
 static const char *const table_names[TABLE_KINDS] = {"box", "hull", "prism", "compound", "mesh", "cylinder", "cone"};
 
 // Its top is y = 0 and reaches 8 m from the axis, in the body's own frame

@@ -166,8 +166,7 @@ static void recycle_block(const fe__contact *contacts, fe__points *points, const
     wide3 na = w_turn_back(rotation_a, n), nb = w_turn_back(rotation_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    wide turned_a = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)),
-         turned_b = w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
+    wide turned_a = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)), turned_b = w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     motion m = {
         .shift = shift,
         .along = w_dot(n, shift),
