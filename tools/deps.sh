@@ -66,7 +66,7 @@ missing_for_lua() {
 
 missing_for_amalgamation() {
     has python3 || echo python3
-    ctags --version 2> /dev/null | grep -q Universal || echo universal-ctags
+    ctags --version 2> /dev/null | grep Universal > /dev/null || echo universal-ctags
 }
 
 # The runtime is that of the clang that is there.

@@ -129,8 +129,50 @@ static double an_exact_touch_is_no_overlap(dice *d, char *told)
     return fails ? 2 : 0;
 }
 
+// Turns about the common normal by up to ten rad, as it goes
+static const char *what_fails_turning(const scene *s, const mover *m, double gap, way w, vec d, double yaw,
+                                      double heading)
+{
+    const vec up = v3(0, 1, 0);
+    fe_transform start = {.position = v3(0, m->height + gap, 0), .rotation = turned(up, heading)}, stop = start;
+    fe_vec3 turn = {0, (float)yaw, 0};
+    fe_hit hit;
+    fe_body body;
+    int32_t met = fe_world_sweep_turning(s->world, &m->form, &start, &d, &turn, NULL, &hit);
+    if (met < 0) return "an error";
+    if (met && hit.flags & FE_HIT_STARTED_INSIDE) return "inside without an overlap";
+    if (w != COMES) return met ? "a hit of what does not come nearer" : NULL;
+    double stops_before = 1e-6 + 3e-7 * 4 * m->height;
+    if (-d.y < gap + stops_before) return NULL; // it may end before the body
+    if (!met) return "no hit";
+    stop.position = plus(stop.position, times(hit.fraction, d));
+    stop.rotation = turned(up, heading + hit.fraction * (double)turn.y);
+    if (fe_world_overlap(s->world, &m->form, &stop, NULL, &body, 1)) return "a stop inside";
+    return dot(widen(hit.normal), d) < 0 ? NULL : "a normal along the way";
+}
+
+static double what_turns_where_it_touches_is_not_hit(dice *d, char *told)
+{
+    scene s = scene_begin(NULL);
+    top_kind top = (top_kind)pick(d, TOPS);
+    mover_kind kind = (mover_kind)pick(d, MOVERS);
+    double size = spread(d, 0.02, 2), yaw = uniform(d, -10, 10), gap = chance(d, 0.6) ? 0 : spread(d, 1e-12, 1e-4);
+    add_top(&s, top, size, uniform(d, -PI, PI));
+    mover m = any_mover(&s, d, kind);
+    double heading = uniform(d, -PI, PI);
+    const char *fails = NULL;
+    int w;
+    for (w = LEAVES; w < WAYS && !fails; ++w)
+        fails = what_fails_turning(&s, &m, gap, (way)w, direction_of(d, (way)w), yaw, heading);
+    snprintf(told, LAW_TOLD, "%s (height %.3g m) on %s (%.3g m), gap %.3g m, %s, turns by %.3g rad: %s",
+             mover_names[kind], m.height, top_names[top], size, gap, way_names[w - 1], yaw, fails ? fails : "holds");
+    scene_end(&s);
+    return fails ? 2 : 0;
+}
+
 int main(int argc, char **argv)
 {
-    static const law laws[] = {{LAW(an_exact_touch_is_no_overlap), 2000}};
+    static const law laws[] = {{LAW(an_exact_touch_is_no_overlap), 2000},
+                               {LAW(what_turns_where_it_touches_is_not_hit), 2000}};
     return law_main(argc, argv, laws, sizeof laws / sizeof *laws);
 }

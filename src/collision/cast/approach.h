@@ -96,6 +96,8 @@ static inline int32_t fe__is_inside(const fe__approach *a, const fe__core_overla
 {
     return overlap->depth > a->touch;
 }
+// Of cores that touch: a point of the frame's at which they do
+fe_dvec3 fe__touching_point(const fe__approach *a, const fe__core_overlap *touch);
 // For what is not inside at the start, see fe__is_inside. 1: they meet, and the stop is at t <= limit.
 int32_t fe__approach_sweep(const fe__approach *a, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit);
 int32_t fe__core_kind_of(const fe__form *form);

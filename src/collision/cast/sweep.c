@@ -91,7 +91,7 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
     fe__core_overlap o = {.gap = {0}};
     if (fe__is_curved_pair(s)) {
         fe__curved_gap_of(s, s->position, &o.gap);
-        if (!(o.gap.distance > 0.0)) {
+        if (!(o.gap.distance > s->touch)) { // of points nearer than that only rounding knows the direction
             o.depth = fe__curved_depth(s, &o.way_out, &o.gap) + s->radius;
             return o;
         }
@@ -145,6 +145,12 @@ static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, dou
     return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, 1.0, &t, &gap);
 }
 
+fe_dvec3 fe__touching_point(const fe__approach *s, const fe__core_overlap *touch)
+{
+    int32_t are_boxes = s->other_kind == FE_CORE_BOX && !fe__is_curved_pair(s);
+    return are_boxes ? fe__boxes_touching_point(s, touch->way_out) : touch->gap.on_frame;
+}
+
 // Forms that touch at the start meet at once or never. Being convex, they overlap from the start on if they overlap
 // anywhere on the way, and what slides along or leaves overlaps nowhere. The overlap may end soon, so the way is asked
 // at its end and at ever shorter parts of it.
@@ -157,10 +163,7 @@ static int32_t sweep_from_touch(const fe__approach *s, const fe__core_overlap *s
     for (int32_t i = 0; i < PARTS; ++i, t *= shorter) {
         later.position = fe__approach_at(s, t);
         if (!(fe__approach_overlap(&later).depth > deeper * s->touch)) continue;
-        fe_dvec3 point = s->other_kind == FE_CORE_BOX && !fe__is_curved_pair(s)
-                             ? fe__boxes_touching_point(s, start->way_out)
-                             : start->gap.on_frame;
-        *hit = (fe__approach_hit){0.0, start->way_out, point};
+        *hit = (fe__approach_hit){0.0, start->way_out, fe__touching_point(s, start)};
         return 1;
     }
     return 0;

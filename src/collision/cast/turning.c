@@ -99,7 +99,7 @@ static double separation(const encounter *e, double t, fe_dvec3 n)
 }
 
 // Across the nearest points' direction at t, which comes into `here` with the point: how far planes hold the two apart,
-// m. 0: the cores overlap, `here` stays
+// m; below 0 by no more than a touch. 0: they overlap, `here` stays
 static int32_t look(const encounter *e, double t, double *distance, fe__approach_hit *here)
 {
     fe__mover now = fe__turning_at(e->way, t);
@@ -107,15 +107,26 @@ static int32_t look(const encounter *e, double t, double *distance, fe__approach
         fe_dvec3 n = fe__widen(e->plane->normal);
         *distance = fe__height_over_plane(e->plane, &now);
         *here = (fe__approach_hit){t, fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n), now.position};
-        return *distance > 0.0;
+        return *distance >= -fe__touch_of(&now);
     }
     fe__core_gap gap;
     e->pair->axes = now.axes;
     (void)fe__sure_gap_of(e->pair, now.position, &gap);
-    *distance = -e->pair->radius;
-    if (!(gap.distance > 0.0)) return 0;
-    *here = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
-    *distance = fe__separation_of(e->pair, now.position, here->normal) - e->pair->radius;
+    if (gap.distance > 0.0) {
+        fe__approach_hit nearest = {t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
+        *distance = fe__separation_of(e->pair, now.position, nearest.normal) - e->pair->radius;
+        if (*distance >= -fe__touch_of(&now)) {
+            *here = nearest;
+            return 1;
+        }
+    }
+    // of nearest points that all but meet only rounding knows the direction
+    fe__approach there = *e->pair;
+    there.position = now.position;
+    fe__core_overlap overlap = fe__approach_overlap(&there);
+    *distance = -overlap.depth;
+    if (fe__is_inside(&there, &overlap)) return 0;
+    *here = (fe__approach_hit){t, overlap.way_out, fe__touching_point(&there, &overlap)};
     return 1;
 }
 
@@ -146,6 +157,40 @@ static double safe_way(const encounter *e, const fe__approach_hit *here, double 
     return safe;
 }
 
+int32_t fe__turning_stays_beyond(const fe__turning *way, fe__approach *pair, fe_dvec3 n, double from)
+{
+    const encounter e = {way, pair, NULL};
+    const double touch = fe__touch_of(way->mover);
+    fe__approach_hit here = {from, n, way->mover->position};
+    for (int32_t i = 0; i < MOST_LOOKS; ++i) {
+        double distance = separation(&e, here.t, n);
+        if (!(distance >= -0.5 * touch)) return 0;
+        here.t += safe_way(&e, &here, distance, -touch, 1.0);
+        if (here.t >= 1.0) return 1;
+    }
+    return 0;
+}
+
+// What touches at *t, across here's normal: does it come nearer by half a touch before `until`? Else *t is when it is
+// well apart, or `until`. The planes across the normal hold apart what slides along them; where other features come to
+// face each other, those across the nearest points' direction do.
+static int32_t comes_nearer(const encounter *e, fe__approach_hit here, double until, double *t)
+{
+    const double touch = fe__touch_of(e->way->mover);
+    double distance = separation(e, *t, here.normal), goal = fe__mind(distance, 0.0) - 0.5 * touch;
+    for (int32_t i = 0; distance <= LEFT * e->way->gap; ++i) {
+        int32_t is_near = distance <= goal + TOLERANCE * touch;
+        if (is_near && (!look(e, *t, &distance, &here) || distance <= goal + TOLERANCE * touch)) return 1;
+        here.t = *t;
+        double step = safe_way(e, &here, distance, goal, until);
+        if (*t + step <= *t || i == MOST_STEPS) return 1; // below the rounding of t, or for too long
+        *t = fe__mind(*t + step, until);
+        if (*t >= until) return 0;
+        distance = separation(e, *t, here.normal);
+    }
+    return 0;
+}
+
 // Where the gap begins, or at once within it; and only what comes on through half of that is met, for what slides along
 // a surface must not stick to it by a rounding. What leaves the gap again has met nothing.
 int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__form *plane, double from, double until,
@@ -157,6 +202,14 @@ int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__
     int32_t entered = 0, met = 0;
     for (int32_t i = 0; !met; ++i) {
         int32_t apart = look(&e, t, &distance, &here);
+        if (!entered && apart && distance <= fe__touch_of(way->mover)) {
+            double later = t;
+            met = comes_nearer(&e, here, until, &later);
+            *hit = here;
+            if (!met && later >= until) return 0;
+            t = later;
+            continue;
+        }
         if (entered && distance > LEFT * way->gap) entered = 0, clearance = goal = way->gap;
         if (!entered && (!apart || distance <= (1.0 + TOLERANCE) * way->gap || i == MOST_STEPS)) {
             here.t = t, *hit = here, entered = 1;
@@ -185,7 +238,9 @@ int32_t fe__form_turn(const fe__form *still, const fe__mover *mover, double limi
                          .other_kind = fe__core_kind_of(mover->form),
                          .frame_form = still,
                          .other_form = mover->form,
-                         .radius = (double)still->radius + (double)mover->form->radius};
+                         .radius = (double)still->radius + (double)mover->form->radius,
+                         .touch = fe__touch_of(mover)};
+    fe__core_half(still, pair.frame_half), fe__core_half(mover->form, pair.other_half);
     fe__approach_hit h;
     if (!fe__turning_meets(&way, unbounded ? NULL : &pair, unbounded ? still : NULL, 0.0, limit, &h)) return 0;
     fe__mover stopped = fe__turning_at(&way, h.t);

@@ -33,6 +33,9 @@ double fe__turning_speed(const fe__turning *way);
 int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__form *plane, double from, double until,
                           fe__approach_hit *hit);
 
+// Do planes across n (unit, from what stands to what moves) hold the two apart from then on, or touching?
+int32_t fe__turning_stays_beyond(const fe__turning *way, fe__approach *pair, fe_dvec3 n, double from);
+
 // The first t in [0, limit] at which they meet, in `mover` apart or overlapping at the start. 1: hit.
 int32_t fe__form_turn(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit);
 int32_t fe__ground_turn(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit);

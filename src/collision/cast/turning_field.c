@@ -42,6 +42,7 @@ static void meet_triangle(field_turn *f, int32_t triangle, double from, double u
     int32_t number = fe__ground_number(s->surface, triangle), two_sided = fe__ground_is_two_sided(s->surface);
     fe__field_take(s, triangle);
     double t = from, end = fe__mind(until, best->t);
+    if (fe__turning_stays_beyond(&f->way, &s->pair, s->pair.normal, from)) return;
     if (from > 0.0 && !two_sided && distance_at(f, t) <= 0.0 && !pass(f, end, &t)) return;
     fe__approach_hit hit;
     while (fe__turning_meets(&f->way, &s->pair, NULL, t, end, &hit)) {

@@ -54,12 +54,11 @@ FE_INLINE wide4 rotation_since_found(const fe__body *bodies, const int32_t *body
     return w_with(w_flush3(w_xyz(q), w_set(FE__LEAST_LEAN)), q.w);
 }
 
-// 0 for a static A, 1 otherwise
-FE_INLINE wide spans_of(const fe__body *bodies, const int32_t *a)
+FE_INLINE wide_mask are_of_type(const fe__body *bodies, const int32_t *body, int32_t type)
 {
-    _Alignas(64) float spans[FE_W];
-    for (int i = 0; i < FE_W; ++i) spans[i] = bodies[a[i]].type == FE_BODY_STATIC ? 0.0f : 1.0f;
-    return *(const wide *)spans;
+    _Alignas(64) float are[FE_W];
+    for (int i = 0; i < FE_W; ++i) are[i] = bodies[body[i]].type == type ? 1.0f : 0.0f;
+    return w_greater(*(const wide *)are, w_set(0.5f));
 }
 
 FE_INLINE wide length(wide3 a) { return w_sqrt(w_dot(a, a)); }
@@ -99,18 +98,22 @@ typedef struct {
     wide along;   // of that, away along the normal
     wide3 na, nb; // by how much the normal turned in the frame of either: R(dq)^T n - n
     wide turned;  // sum over both of sin^2(angle / 2)
+    wide carried; // of that, A's where it is kinematic
     wide reach;   // longest arm of the rotations, m
 } motion;
 
 // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what
 // ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of either body,
-// and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2). A patch of a heightfield goes with its head: its tolerance is below 0
+// and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2). A patch of a heightfield goes with its head: its tolerance is below 0.
+// What rides on a kinematic body that rotates is found anew each step: friction holds it to the velocity at the arms,
+// and with those of t seconds ago it would leave its circle of radius R by w^2 R t / 2 each second, for ever.
 FE_INLINE wide_mask is_old(const motion *m, wide3 n, wide tolerance)
 {
     wide3 slide = w_flush3(w_sub_scaled(m->shift, m->along, n), w_set(FE__LEAST_SHIFT));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * m->reach * m->reach * m->turned);
     wide most_along = w_choose(w_greater(w_set(0.0f), tolerance), w_set(FLT_MAX), w_set(MOST_ALONG));
-    return w_or(w_not(w_greater(tolerance * tolerance, moved)), w_greater(w_abs(m->along), most_along));
+    wide_mask far = w_or(w_not(w_greater(tolerance * tolerance, moved)), w_greater(w_abs(m->along), most_along));
+    return w_or(far, w_greater(m->carried, w_set(0.0f)));
 }
 
 // What is left of the gap of a pair without points, m. Between two planes with the normal n it changes by the shift
@@ -159,17 +162,19 @@ static void recycle_block(const fe__contact *contacts, fe__points *points, const
     wide3 n = w_xyz(normal), shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
     wide4 rotation_a = rotation_since_found(bodies, a, found_a), rotation_b = rotation_since_found(bodies, b, found_b);
     // a static A has its arms from B's centre: no span between them, and it does not rotate
-    wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
+    wide3 arms_span = w_choose3(are_of_type(bodies, a, FE_BODY_STATIC), w_zero3(), w_xyz(found));
     wide3 na = w_turn_back(rotation_a, n), nb = w_turn_back(rotation_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
+    wide turned_a = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)), turned_b = w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     motion m = {
-        shift,
-        w_dot(n, shift),
-        na,
-        nb,
-        w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b)),
-        found.w,
+        .shift = shift,
+        .along = w_dot(n, shift),
+        .na = na,
+        .nb = nb,
+        .turned = turned_a + turned_b,
+        .carried = w_choose(are_of_type(bodies, a, FE_BODY_KINEMATIC), turned_a, w_set(0.0f)),
+        .reach = found.w,
     };
     for (int i = 0; i < FE__POINTS; i += 2)
         w_gather_both(points->point[i].arm, POINTS_STRIDE, points_of, point + i, point + i + 1);
