@@ -35,10 +35,12 @@ typedef struct ROW {
     uint32_t gaps; // lanes whose gap is greater than 0, a bit each
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before
+    uint32_t lent;   // lanes of which a body shows the mass of its tree, a bit each
     wide span[3];    // centre of A - centre of B
     contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
+    wide mass_scale;                    // of the softness, see find_softness
     // relax only
     wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
     wide total[POINTS];          // of the impulses of the substeps so far
@@ -223,6 +225,54 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
     UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
 }
 
+// Of a link that shows the mass of its tree. A wheel with a flat side spins about its axle as easily as ever, and lifts
+// the cart: a step of steepest descent does one or the other. Conjugate gradients (M. Hestenes and E. Stiefel, 1952) do
+// all three that the points of a plane can ask for.
+static __attribute__((noinline)) void NAMED(predict_lent)(ROW *row, const wide *request, const wide *scale,
+                                                          wide *impulse)
+{
+    wide r[POINTS], d[POINTS], by[POINTS], zero = w_set(0.0f), square = zero;
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        impulse[i] = row->point[i].impulse;
+        r[i] = d[i] = request[i] - impulse[i];
+        square = square + r[i] * r[i];
+    }
+    for (int step = 0; step < FE__POINTS - 1; ++step) {
+        wide along = zero, size = zero, left = zero;
+        UNROLL for (int j = 0; j < POINTS; ++j)
+        {
+            by[j] = d[j] + NAMED(lost_at)(row, scale, d, j);
+            along = along + d[j] * by[j], size = size + d[j] * d[j];
+        }
+        wide share = w_choose(w_greater(along, LEAST_ALONG * size), square / along, zero);
+        UNROLL for (int i = 0; i < POINTS; ++i)
+        {
+            impulse[i] = impulse[i] + share * d[i], r[i] = r[i] - share * by[i];
+            left = left + r[i] * r[i];
+        }
+        wide next = left * w_inverse_or_zero(square);
+        UNROLL for (int i = 0; i < POINTS; ++i) d[i] = r[i] + next * d[i];
+        square = left;
+    }
+}
+
+static __attribute__((noinline)) void NAMED(predict_mixed)(ROW *row, wide *request, const wide *scale)
+{
+    wide_mask lent = lanes_of(row->lent);
+    wide zero = w_set(0.0f), asked[POINTS], wanted[POINTS], before[POINTS], d[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i) asked[i] = request[i], before[i] = row->point[i].impulse;
+    NAMED(predict_lent)(row, request, scale, wanted);
+    NAMED(predict_points)(row, request, scale);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        contact_point *q = row->point + i;
+        q->impulse = w_choose(lent, w_max(wanted[i], zero), q->impulse), d[i] = q->impulse - before[i];
+    }
+    UNROLL for (int j = 0; j < POINTS; ++j) request[j] =
+        w_choose(lent, asked[j] - NAMED(lost_at)(row, scale, d, j), request[j]);
+}
+
 // Runs the points against each other on their impulses. request[i] is the new impulse of point i before max(., 0); a
 // change d at point i lowers request[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about
 // A's centre.
@@ -231,7 +281,8 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
-    if (POINTS > 1) NAMED(predict_points)(row, request, scale);
+    if (POINTS > 1 && row->lent) NAMED(predict_mixed)(row, request, scale);
+    else if (POINTS > 1) NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *q = row->point + i;
@@ -258,15 +309,14 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
 }
 
 // The impulses that the points request while the others keep theirs, before max(., 0). `scale`: weights of their
-// velocities. Soft:   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's
-// otherwise Relax, and wherever there is a gap (for a loaded point, of more than TOUCHING): l' = max(l - m (vn + max(s
-// / h, 0)), 0)
+// velocities. Soft:   l' = max(ms l - m (ms vn + bias), 0);   bias = ms s / h where the gap s > 0, the spring's
+// otherwise, which keeps ms = 1 - is of the impulse. Relax, and wherever there is a gap (for a loaded point, of more
+// than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
 FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request,
                                wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed),
-         rate = w_set(k->mass_scale * k->bias_rate);
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = row->mass_scale * k->bias_rate;
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
@@ -279,10 +329,9 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
             continue;
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
-        scale[i] = w_choose(apart, one, w_set(k->mass_scale));
+        scale[i] = w_choose(apart, one, row->mass_scale);
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
-        request[i] =
-            w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
+        request[i] = scale[i] * q->impulse - q->mass * (scale[i] * vn + bias);
     }
 }
 
