@@ -23,7 +23,7 @@
 // A tree lends where a touched link gets less than this share of its own inverse mass: what others lose is worth it
 #define LENDS 0.5
 // Links that are heavier by the tree: A is at most this share
-#define HEAVIER 0.4
+#define HEAVIER 0.75
 // What G may grow by while bodies turn within the step, and what powers may have missed
 #define FOR_TURNS 1.25
 // e, at least: of turns of 0.03 rad, and far above the rounding of what contacts leave in velocities
