@@ -41,6 +41,9 @@
 #define BREAKAWAY 1.3f
 // Of a change of the impulses of a lent link, the share that the points must answer by
 #define LEAST_ALONG 1e-5f
+// The share of the speed of what a light link bears that a pass over one of its contacts changes, at least, where the
+// contact is as stiff as for the whole load
+#define LEAST_FOLLOWED 0.03f
 // Of a slip, the multiple that friction can stop at most in the direction of a contact that slides: far from infinity
 #define MOST_PART 1e6f
 // A change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at

@@ -130,18 +130,39 @@ FE_INLINE wide NAMED(soft_mass)(const side *b)
     return b->inverse_mass * w_choose(w_greater(part, w_set(0.0f)), part, w_set(1.0f));
 }
 
+// The mass that equal impulses at all points push: 1 / K,  K = sum K_ij / n^2
+FE_INLINE wide NAMED(mass_of_all)(const ROW *row)
+{
+    wide sum = w_set(0.0f), count = sum, one = w_set(1.0f);
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        wide mass = row->point[j].mass, response = w_inverse_or_zero(mass), others = w_set(0.0f);
+        UNROLL for (int i = 0; i < j; ++i) others =
+            others + w_choose(w_greater(row->point[i].mass, w_set(0.0f)), row->coupling[coupling_of[i][j]], w_set(0.0f));
+        count = count + w_choose(w_greater(mass, w_set(0.0f)), one, w_set(0.0f));
+        sum = sum + response * (one + 2.0f * others);
+    }
+    return count * count * w_inverse_or_zero(sum);
+}
+
 // A soft point bears m w^2 for each metre that it is deep, m what it knows of the bodies' masses. Where that is a
 // tree's, it is less than what stands on the point: as much less as keeps the passes stable. There the stiffness is
 // that of the mass mu that the tree has at the body's centre,
-//     ms / is = m_i / mu  of before,   ms = 1 / (1 + m_i / mu a3 / (a2 a3))
+//     (1 - ms) / ms = m / mu a3 / (a2 a3)
+// which passes follow as long as they change the speed of mu by a thirtieth, by the points of this contact alone.
 static __attribute__((noinline)) void NAMED(stiffen)(ROW *row, const pair *p, const fe__softness *k, wide_mask lent)
 {
     wide mass = row->point[0].mass;
     UNROLL for (int i = 1; i < POINTS; ++i) mass = w_max(mass, row->point[i].mass);
     wide response = NAMED(soft_mass)(&p->a) + NAMED(soft_mass)(&p->b);
-    wide scale = 1.0f / (1.0f + mass * response * (k->impulse_scale / k->mass_scale));
     row->lent = bits_of(lent);
+    wide share = NAMED(mass_of_all)(row) * response * (1.0f / LEAST_FOLLOWED);
+    wide part = mass * response + w_max(1.0f - share, w_set(0.0f));
+    wide scale = 1.0f / (1.0f + part * (k->impulse_scale / k->mass_scale));
     row->mass_scale = w_choose(lent, w_max(scale, row->mass_scale), row->mass_scale);
+#ifdef DBGX
+    for (int i = 0; i < FE_W; ++i) if (row->lent >> i & 1) fprintf(stderr, "POINTS %d lane %d mass %g %g %g %g coup %g %g %g resp %g share %g part %g ms %g\n", POINTS, i, (double)row->point[0].mass[i],(double)row->point[POINTS>1].mass[i],(double)row->point[POINTS>1?2:0].mass[i],(double)row->point[POINTS>1?3:0].mass[i],(double)row->coupling[0][i],(double)row->coupling[POINTS>1?1:0][i],(double)row->coupling[POINTS>1?2:0][i],(double)response[i],(double)share[i],(double)part[i],(double)row->mass_scale[i]);
+#endif
 }
 
 FE_INLINE void NAMED(find_softness)(ROW *row, const pair *p, const fe__step_constants *c, int kind)

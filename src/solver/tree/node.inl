@@ -83,7 +83,7 @@ typedef struct tree_node {
     real rod;             // length of a distance joint, m; else 0
     // of a link that contacts touch, see response.inl
     int32_t touched, heavier; // lanes; those in which the tree makes it heavier
-    real light;               // share of its inverse mass
+    real light, gives;        // shares of its inverse mass: what contacts see of it, and the mean of all directions
     half part;                // of what contacts see, that of the link alone: 0..1
     real_sym turns, root;     // A of its rotations, and L of L L^T = A
     half seen[6];             // what contacts see of its rotations, xx xy xz yy yz zz, for as long as the step lasts

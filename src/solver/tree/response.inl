@@ -180,6 +180,7 @@ static void find_sizes(const pass *t, int32_t i, int32_t lanes)
     for (int32_t k = 0; k < t->count; ++k) total += t->nodes[k].mass;
     const real least = n->mass / total;
     n->light = r_max(least, n->mass * size_of(own));
+    n->gives = r_max(least, n->mass * (1.0 / 3.0) * (own[0].a[0] + own[1].a[1] + own[2].a[2]));
     n->heavier = r_bits(r_greater(r_set(HEAVIER), n->light)) & lanes;
     const real_sym g = {own[3].a[3], own[3].a[4], own[3].a[5], own[4].a[4], own[4].a[5], own[5].a[5]};
     const real share = r_max(least, trace_of(&g) * inverse_or_zero(trace_of(&n->first_inverse)));
@@ -273,9 +274,9 @@ static void scale_shares(const pass *t, int32_t others, real factor)
         if (!n->touched) continue;
         const real_mask heavier = r_both(r_mask(n->heavier), lends);
         const real_sym turns = choose_sym(heavier, &n->turns, &n->first_inverse);
-        const real scale = r_choose(lends, both, one) * r_choose(heavier, factor, one), light = n->light;
-        n->light = scale * r_choose(heavier, light, one);
-        n->part = narrow(r_min(r_choose(r_mask(n->heavier), light, one) / n->light, r_set(MOST_PART)));
+        const real scale = r_choose(lends, both, one) * r_choose(heavier, factor, one), gives = n->gives;
+        n->light = scale * r_choose(heavier, n->light, one);
+        n->part = narrow(r_min(r_choose(r_mask(n->heavier), gives, one) / n->light, r_set(MOST_PART)));
         set_turns(t, n, scale, &turns);
     }
 }
