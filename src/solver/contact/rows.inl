@@ -323,12 +323,15 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
+        wide_mask eased = row->lent ? w_and(lanes_of(row->lent), w_greater(q->impulse, zero)) : no_lane();
+        if (row->lent) ahead = w_choose(eased, distance * k->bias_rate, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
             continue;
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
+        apart = w_and(apart, w_not(eased));
         scale[i] = w_choose(apart, one, row->mass_scale);
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
         request[i] = scale[i] * q->impulse - q->mass * (scale[i] * vn + bias);
