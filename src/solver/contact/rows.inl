@@ -225,52 +225,91 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
     UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
 }
 
+// The points of a row without weights: A = K + (1 / w - 1 / m) of its diagonal, w_i = scale_i m_i: what they answer to
+// impulses, with the softness
+typedef struct NAMED(answers) {
+    wide k[POINTS][POINTS], weight[POINTS];
+} NAMED(answers);
+
+FE_INLINE void NAMED(find_answers)(const ROW *row, const wide *scale, NAMED(answers) * out)
+{
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        wide inverse = w_inverse_or_zero(row->point[j].mass);
+        out->weight[j] = scale ? scale[j] * row->point[j].mass : row->point[j].mass;
+        out->k[j][j] = w_inverse_or_zero(out->weight[j]);
+        UNROLL for (int i = 0; i < j; ++i) out->k[i][j] = out->k[j][i] =
+            inverse * row->coupling[coupling_of[i][j]] * w_choose(w_greater(row->point[i].mass, w_set(0.0f)), w_set(1.0f), w_set(0.0f));
+    }
+}
+
+FE_INLINE wide NAMED(answer)(const NAMED(answers) * a, const wide *d, int j)
+{
+    wide sum = a->k[j][0] * d[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) sum = sum + a->k[j][i] * d[i];
+    return sum;
+}
+
+FE_INLINE wide NAMED(product)(const wide *a, const wide *b)
+{
+    wide sum = a[0] * b[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) sum = sum + a[i] * b[i];
+    return sum;
+}
+
 // Of a link that shows the mass of its tree. A wheel with a flat side spins about its axle as easily as ever, and lifts
 // the cart: a step of steepest descent does one or the other. Conjugate gradients (M. Hestenes and E. Stiefel, 1952) do
-// all three that the points of a plane can ask for.
-static __attribute__((noinline)) void NAMED(predict_lent)(ROW *row, const wide *request, const wide *scale,
-                                                          wide *impulse)
+// all three that the points of a plane can ask for. What they leave above 0 is gone to as far as it takes energy.
+static __attribute__((noinline)) void NAMED(predict_lent)(ROW *row, wide *request, const wide *scale)
 {
-    wide r[POINTS], d[POINTS], by[POINTS], zero = w_set(0.0f), square = zero;
+    NAMED(answers) a;
+    wide zero = w_set(0.0f), wish[POINTS], r[POINTS], z[POINTS], d[POINTS], by[POINTS], to[POINTS];
+    wide_mask lent = lanes_of(row->lent);
+    NAMED(find_answers)(row, scale, &a);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        impulse[i] = row->point[i].impulse;
-        r[i] = d[i] = request[i] - impulse[i];
-        square = square + r[i] * r[i];
+        to[i] = zero, z[i] = d[i] = request[i] - row->point[i].impulse;
+        r[i] = wish[i] = a.k[i][i] * d[i];
     }
+    wide square = NAMED(product)(r, z);
     for (int step = 0; step < FE__POINTS - 1; ++step) {
-        wide along = zero, size = zero, left = zero;
-        UNROLL for (int j = 0; j < POINTS; ++j)
-        {
-            by[j] = d[j] + NAMED(lost_at)(row, scale, d, j);
-            along = along + d[j] * by[j], size = size + d[j] * d[j];
-        }
+        wide size = zero;
+        UNROLL for (int j = 0; j < POINTS; ++j) by[j] = NAMED(answer)(&a, d, j), size = size + a.k[j][j] * d[j] * d[j];
+        wide along = NAMED(product)(d, by);
         wide share = w_choose(w_greater(along, LEAST_ALONG * size), square / along, zero);
         UNROLL for (int i = 0; i < POINTS; ++i)
         {
-            impulse[i] = impulse[i] + share * d[i], r[i] = r[i] - share * by[i];
-            left = left + r[i] * r[i];
+            to[i] = to[i] + share * d[i], r[i] = r[i] - share * by[i];
+            z[i] = a.weight[i] * r[i];
         }
-        wide next = left * w_inverse_or_zero(square);
-        UNROLL for (int i = 0; i < POINTS; ++i) d[i] = r[i] + next * d[i];
+        wide left = NAMED(product)(r, z), next = left * w_inverse_or_zero(square);
+        UNROLL for (int i = 0; i < POINTS; ++i) d[i] = z[i] + next * d[i];
         square = left;
+    }
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] =
+        w_max(row->point[i].impulse + to[i], zero) - row->point[i].impulse;
+    UNROLL for (int j = 0; j < POINTS; ++j) by[j] = NAMED(answer)(&a, d, j);
+    wide share = w_clamp(NAMED(product)(d, wish) * w_inverse_or_zero(NAMED(product)(d, by)), zero, w_set(1.0f));
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        contact_point *q = row->point + i;
+        q->impulse = w_choose(lent, w_max(q->impulse + share * d[i], zero), q->impulse);
+        request[i] = w_choose(lent, request[i] - a.weight[i] * share * (by[i] - a.k[i][i] * d[i]), request[i]);
     }
 }
 
 static __attribute__((noinline)) void NAMED(predict_mixed)(ROW *row, wide *request, const wide *scale)
 {
     wide_mask lent = lanes_of(row->lent);
-    wide zero = w_set(0.0f), asked[POINTS], wanted[POINTS], before[POINTS], d[POINTS];
+    wide asked[POINTS], before[POINTS];
     UNROLL for (int i = 0; i < POINTS; ++i) asked[i] = request[i], before[i] = row->point[i].impulse;
-    NAMED(predict_lent)(row, request, scale, wanted);
     NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        contact_point *q = row->point + i;
-        q->impulse = w_choose(lent, w_max(wanted[i], zero), q->impulse), d[i] = q->impulse - before[i];
+        row->point[i].impulse = w_choose(lent, before[i], row->point[i].impulse);
+        request[i] = w_choose(lent, asked[i], request[i]);
     }
-    UNROLL for (int j = 0; j < POINTS; ++j) request[j] =
-        w_choose(lent, asked[j] - NAMED(lost_at)(row, scale, d, j), request[j]);
+    NAMED(predict_lent)(row, request, scale);
 }
 
 // Runs the points against each other on their impulses. request[i] is the new impulse of point i before max(., 0); a
