@@ -20,7 +20,7 @@
 // The same for a wheel, a body at the end of a tree whose hinge lets it turn all round. It is there to be stood on, and
 // light machines have few of them: four of an eighth, of their own masses, sink by 2 g / (2 pi 15 Hz)^2 = 0.5 mm more
 // than one solid body at 30 Hz and 4 substeps, where contacts are softest.
-#define HEAVY_WHEELED 3.0f
+#define HEAVY_WHEELED 2.0f
 
 // Levers: the rotation of a body may give way to each of its joints by a share of what the joint's stiffness counts on.
 // A sweep meets one joint after the other. Where these shares add up to more than this, it lets a star of joints swing,

@@ -156,13 +156,11 @@ static __attribute__((noinline)) void NAMED(stiffen)(ROW *row, const pair *p, co
     UNROLL for (int i = 1; i < POINTS; ++i) mass = w_max(mass, row->point[i].mass);
     wide response = NAMED(soft_mass)(&p->a) + NAMED(soft_mass)(&p->b);
     row->lent = bits_of(lent);
-    wide share = NAMED(mass_of_all)(row) * response * (1.0f / LEAST_FOLLOWED);
-    wide part = mass * response + w_max(1.0f - share, w_set(0.0f));
+    wide share = NAMED(mass_of_all)(row) * response;
+    wide part = mass * response + w_max(1.0f - share * (1.0f / LEAST_FOLLOWED), w_set(0.0f));
+    row->ease = w_min(2.0f * share, w_set(1.0f));
     wide scale = 1.0f / (1.0f + part * (k->impulse_scale / k->mass_scale));
     row->mass_scale = w_choose(lent, w_max(scale, row->mass_scale), row->mass_scale);
-#ifdef DBGX
-    for (int i = 0; i < FE_W; ++i) if (row->lent >> i & 1) fprintf(stderr, "POINTS %d lane %d mass %g %g %g %g coup %g %g %g resp %g share %g part %g ms %g\n", POINTS, i, (double)row->point[0].mass[i],(double)row->point[POINTS>1].mass[i],(double)row->point[POINTS>1?2:0].mass[i],(double)row->point[POINTS>1?3:0].mass[i],(double)row->coupling[0][i],(double)row->coupling[POINTS>1?1:0][i],(double)row->coupling[POINTS>1?2:0][i],(double)response[i],(double)share[i],(double)part[i],(double)row->mass_scale[i]);
-#endif
 }
 
 FE_INLINE void NAMED(find_softness)(ROW *row, const pair *p, const fe__step_constants *c, int kind)

@@ -41,6 +41,7 @@ typedef struct ROW {
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
     wide mass_scale;                    // of the softness, see find_softness
+    wide ease;                          // of lent lanes, see stiffen
     // relax only
     wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
     wide total[POINTS];          // of the impulses of the substeps so far
@@ -363,7 +364,7 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
         wide_mask eased = row->lent ? w_and(lanes_of(row->lent), w_greater(q->impulse, zero)) : no_lane();
-        if (row->lent) ahead = w_choose(eased, distance * k->bias_rate, ahead);
+        if (row->lent) ahead = w_choose(eased, row->ease * ahead, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
