@@ -52,7 +52,10 @@ static cart any_cart(scene *s, dice *d)
     return c;
 }
 
-static vec place_of(const cart *c, vec at, vec start) { return plus(start, rotate(turned(v3(0, 1, 0), c->heading), at)); }
+static vec place_of(const cart *c, vec at, vec start)
+{
+    return plus(start, rotate(turned(v3(0, 1, 0), c->heading), at));
+}
 
 static void add_wheel_shape(scene *s, fe_body body, const cart *c, vec at, fe_material m)
 {
@@ -115,12 +118,15 @@ static double a_cart_stands_as_a_solid_body_would(dice *d, char *told)
     if (c.name[0] == 'p') solid.wheel = hull_prism(&s, c.sides, c.half_width, c.at[0].y / cos(PI / c.sides));
     chassis = add_cart(&s, &solid, start, m, 1);
     law_run(&s, r, SETTLED);
-    double sunk = -way.y, alone = from.y - position(&s, chassis).y, drift = hypot(way.x, way.z), creeps = hypot(crept.x, crept.z);
+    double sunk = -way.y, alone = from.y - position(&s, chassis).y, drift = hypot(way.x, way.z),
+           creeps = hypot(crept.x, crept.z);
     scene_end(&s);
-    snprintf(told, LAW_TOLD,
-             "%d Hz, %d substeps, %.4g kg on %d %s of %.3g kg, radius %.3g, %s on a %s: sinks by %.4g mm, a solid body by "
-             "%.4g; settles by %.3g mm aside, creeps by %.3g%s", r.hertz, r.substeps, c.mass, (int)c.count, c.name, c.wheel_mass, c.at[0].y,
-             c.braked ? "braked " : "", ground_names[kind], 1e3 * sunk, 1e3 * alone, 1e3 * drift, 1e3 * creeps, awake ? ", AWAKE" : "");
+    snprintf(
+        told, LAW_TOLD,
+        "%d Hz, %d substeps, %.4g kg on %d %s of %.3g kg, radius %.3g, %s on a %s: sinks by %.4g mm, a solid body by "
+        "%.4g; settles by %.3g mm aside, creeps by %.3g%s",
+        r.hertz, r.substeps, c.mass, (int)c.count, c.name, c.wheel_mass, c.at[0].y, c.braked ? "braked " : "",
+        ground_names[kind], 1e3 * sunk, 1e3 * alone, 1e3 * drift, 1e3 * creeps, awake ? ", AWAKE" : "");
     double score = fmax((sunk - alone) / 5e-4, fmax(drift / 1e-2, creeps / 5e-4));
     if (score != score) return score;
     return awake ? fmax(score, 10) : score;

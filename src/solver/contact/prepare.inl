@@ -137,8 +137,8 @@ FE_INLINE wide NAMED(mass_of_all)(const ROW *row)
     UNROLL for (int j = 0; j < POINTS; ++j)
     {
         wide mass = row->point[j].mass, response = w_inverse_or_zero(mass), others = w_set(0.0f);
-        UNROLL for (int i = 0; i < j; ++i) others =
-            others + w_choose(w_greater(row->point[i].mass, w_set(0.0f)), row->coupling[coupling_of[i][j]], w_set(0.0f));
+        UNROLL for (int i = 0; i < j; ++i) others = others + w_choose(w_greater(row->point[i].mass, w_set(0.0f)),
+                                                                      row->coupling[coupling_of[i][j]], w_set(0.0f));
         count = count + w_choose(w_greater(mass, w_set(0.0f)), one, w_set(0.0f));
         sum = sum + response * (one + 2.0f * others);
     }

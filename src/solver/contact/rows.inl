@@ -240,7 +240,8 @@ FE_INLINE void NAMED(find_answers)(const ROW *row, const wide *scale, NAMED(answ
         out->weight[j] = scale ? scale[j] * row->point[j].mass : row->point[j].mass;
         out->k[j][j] = w_inverse_or_zero(out->weight[j]);
         UNROLL for (int i = 0; i < j; ++i) out->k[i][j] = out->k[j][i] =
-            inverse * row->coupling[coupling_of[i][j]] * w_choose(w_greater(row->point[i].mass, w_set(0.0f)), w_set(1.0f), w_set(0.0f));
+            inverse * row->coupling[coupling_of[i][j]] *
+            w_choose(w_greater(row->point[i].mass, w_set(0.0f)), w_set(1.0f), w_set(0.0f));
     }
 }
 
@@ -287,8 +288,7 @@ static __attribute__((noinline)) void NAMED(predict_lent)(ROW *row, wide *reques
         UNROLL for (int i = 0; i < POINTS; ++i) d[i] = z[i] + next * d[i];
         square = left;
     }
-    UNROLL for (int i = 0; i < POINTS; ++i) d[i] =
-        w_max(row->point[i].impulse + to[i], zero) - row->point[i].impulse;
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = w_max(row->point[i].impulse + to[i], zero) - row->point[i].impulse;
     UNROLL for (int j = 0; j < POINTS; ++j) by[j] = NAMED(answer)(&a, d, j);
     wide share = w_clamp(NAMED(product)(d, wish) * w_inverse_or_zero(NAMED(product)(d, by)), zero, w_set(1.0f));
     UNROLL for (int i = 0; i < POINTS; ++i)
@@ -321,8 +321,10 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
-    if (POINTS > 1 && row->lent) NAMED(predict_mixed)(row, request, scale);
-    else if (POINTS > 1) NAMED(predict_points)(row, request, scale);
+    if (POINTS > 1 && row->lent)
+        NAMED(predict_mixed)(row, request, scale);
+    else if (POINTS > 1)
+        NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *q = row->point + i;

@@ -13,8 +13,8 @@
 // (a + b)^2 <= 2 a^2 + 2 b^2, both kinds at once count as half as heavy.
 //
 // Contacts know bodies by one inverse mass and a tensor of their own for rotations. So |G_ii| of a translation is a
-// number, a share of the body's own inverse mass, and that of a rotation is G_ii itself: a wheel spins about its axle as
-// easily as ever, and a contact at the end of its width lifts the cart, not the wheel alone. What G_ii does not let
+// number, a share of the body's own inverse mass, and that of a rotation is G_ii itself: a wheel spins about its axle
+// as easily as ever, and a contact at the end of its width lifts the cart, not the wheel alone. What G_ii does not let
 // rotate gets some of the body's own inverse inertia I^-1,
 //     A_i = G_ii + e tr G_ii / tr I^-1 I^-1
 // as contacts keep A for the step, while its axes turn. An axle that leaves its place by an angle f shows g f^2 of its
@@ -30,7 +30,7 @@
 #define EVEN 1e-3
 // The part is said beside a whole number
 #define MOST_PART 0.9375
-#define ROTATIONS 4.0
+#define ROTATIONS 12.0
 #define POWERS 8
 // With more touched links than these their masses stay their own: G takes time with each
 #define MOST_TOUCHED 16
