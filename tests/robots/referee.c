@@ -30,8 +30,7 @@ static void print_joint(const mjModel *m, const mjData *d, int i)
     print_numbers("range", m->jnt_range + 2 * i, 2);
     const int dof = m->jnt_dofadr[i];
     printf(", \"limited\": %d, \"damping\": %.17g, \"friction\": %.17g, \"stiffness\": %.17g, \"armature\": %.17g, ",
-           (int)m->jnt_limited[i], m->dof_damping[dof], m->dof_frictionloss[dof], m->jnt_stiffness[i],
-           m->dof_armature[dof]);
+           (int)m->jnt_limited[i], m->dof_damping[dof], m->dof_frictionloss[dof], m->jnt_stiffness[i], m->dof_armature[dof]);
     printf("\"rest\": %.17g, \"start\": %.17g}", m->qpos_spring[m->jnt_qposadr[i]], m->qpos0[m->jnt_qposadr[i]]);
 }
 

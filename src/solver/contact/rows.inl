@@ -350,12 +350,18 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
+// Lanes in which passes are too slow for a loaded point to close its gap at once, see stiffen
+FE_INLINE wide_mask NAMED(eased)(const ROW *row, int i)
+{
+    return w_and(lanes_of(row->lent), w_greater(row->point[i].impulse, w_set(0.0f)));
+}
+
 // The impulses that the points request while the others keep theirs, before max(., 0). `scale`: weights of their
 // velocities. Soft:   l' = max(ms l - m (ms vn + bias), 0);   bias = ms s / h where the gap s > 0, the spring's
 // otherwise, which keeps ms = 1 - is of the impulse. Relax, and wherever there is a gap (for a loaded point, of more
 // than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
-FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request,
-                               wide *scale)
+FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, int lent,
+                               wide *request, wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
     wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = row->mass_scale * k->bias_rate;
@@ -365,26 +371,36 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
-        wide_mask eased = row->lent ? w_and(lanes_of(row->lent), w_greater(q->impulse, zero)) : no_lane();
-        if (row->lent) ahead = w_choose(eased, row->ease * ahead, ahead);
+        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->ease * ahead, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
             continue;
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
-        apart = w_and(apart, w_not(eased));
+        if (lent) apart = w_and(apart, w_not(NAMED(eased)(row, i)));
         scale[i] = w_choose(apart, one, row->mass_scale);
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
         request[i] = scale[i] * q->impulse - q->mass * (scale[i] * vn + bias);
     }
 }
 
+// Seldom
+FE_SMALL static __attribute__((noinline)) void NAMED(lent_requests)(ROW *row, const fe__step_constants *c,
+                                                                    const pair *p, int kind, int soft, wide *request,
+                                                                    wide *scale)
+{
+    NAMED(requests)(row, c, p, kind, soft, 1, request, scale);
+}
+
 // Returns by how much the load changed
 FE_INLINE wide NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     wide request[POINTS], scale[POINTS], sum;
-    NAMED(requests)(row, c, p, kind, soft, request, scale);
+    if (row->lent)
+        NAMED(lent_requests)(row, c, p, kind, soft, request, scale);
+    else
+        NAMED(requests)(row, c, p, kind, soft, 0, request, scale);
     wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
     return sum;
