@@ -16,9 +16,12 @@
 // number, a share of the body's own inverse mass, and that of a rotation is G_ii itself: a wheel spins about its axle
 // as easily as ever, and a contact at the end of its width lifts the cart, not the wheel alone. What G_ii does not let
 // rotate gets some of the body's own inverse inertia I^-1,
-//     A_i = G_ii + e tr G_ii / tr I^-1 I^-1
+//     A_i = k (G_ii + e tr G_ii / tr I^-1 I^-1)
 // as contacts keep A for the step, while its axes turn. An axle that leaves its place by an angle f shows g f^2 of its
-// own response g across itself; with (a + b)^2 <= (1 + k) a^2 + (1 + 1/k) b^2 and 1 + k = FOR_TURNS, 4 f^2 will do.
+// own response g across itself; with (a + b)^2 <= (1 + d) a^2 + (1 + 1/d) b^2 and 1 + d = FOR_TURNS, e = 4 f^2 will do.
+//
+// What c A is more than G, passes take longer. k weighs rotations against translations: the larger it is, the less c
+// knows of them, and the more of a wheel's width counts.
 
 // A tree lends where a touched link gets less than this share of its own inverse mass: what others lose is worth it
 #define LENDS 0.5
@@ -28,9 +31,10 @@
 #define FOR_TURNS 1.25
 // e, at least: of turns of 0.03 rad, and far above the rounding of what contacts leave in velocities
 #define EVEN 1e-3
-// The part is said beside a whole number
-#define MOST_PART 0.9375
+// k
 #define ROTATIONS 12.0
+// What is said beside a whole number is less than 1
+#define MOST_PART 0.9375
 #define POWERS 8
 // With more touched links than these their masses stay their own: G takes time with each
 #define MOST_TOUCHED 16
@@ -185,8 +189,8 @@ static void find_sizes(const pass *t, int32_t i, int32_t lanes)
     const real_sym g = {own[3].a[3], own[3].a[4], own[3].a[5], own[4].a[4], own[4].a[5], own[5].a[5]};
     const real share = r_max(least, trace_of(&g) * inverse_or_zero(trace_of(&n->first_inverse)));
     const real even = EVEN + 4.0 * turn_within(&g, read_velocity(t, &n->line).w, 1.0 / t->job->mean);
-    n->turns = mix_sym(&g, even * share, &n->first_inverse);
-    n->turns = mix_sym(&n->turns, r_set(ROTATIONS - 1.0), &n->turns);
+    const real_sym turns = mix_sym(&g, even * share, &n->first_inverse), none = {0};
+    n->turns = mix_sym(&none, r_set(ROTATIONS), &turns);
     n->root = root_of(&n->turns);
 }
 
