@@ -30,6 +30,13 @@ FE_INLINE void gather_line(const void *lines, const int32_t *index, wide4 *low, 
     w_gather_both(lines, FE__LINE, index, low, high);
 }
 
+// of what is positive
+FE_INLINE wide w_fraction(wide a)
+{
+    typedef int32_t whole __attribute__((vector_size(4 * FE_W)));
+    return a - __builtin_convertvector(__builtin_convertvector(a, whole), wide);
+}
+
 FE_INLINE side side_of(wide4 v, wide4 w) { return (side){w_xyz(v), w_xyz(w), v.w, w.w}; }
 FE_INLINE side gather_lines(const void *lines, const int32_t *index)
 {

@@ -123,7 +123,8 @@ static void begin(uint32_t seed)
                              .rows = (unsigned char *)the.locks,
                              .nodes = (unsigned char *)&the.head,
                              .h = 1.0 / 240.0,
-                             .rate = 0.1};
+                             .rate = 0.1,
+                             .mean = 60.0};
 }
 
 // as the world says it
@@ -669,22 +670,23 @@ static void push_alone(double (*x)[6])
     }
 }
 
-// M v of a body
-static void load_of_velocity(int32_t i, const double v[6], double *out)
+// What contacts count with, D x, and D^-1 of an answer
+static void seen_by_contacts(int32_t i, const double x[6], const double answer[6], double *seen, double *load)
 {
-    const fe__sym3 *in = the.inertia + i + 1;
-    const real_sym inverse = {r_set((double)in->xx), r_set((double)in->xy), r_set((double)in->xz),
-                              r_set((double)in->yy), r_set((double)in->yz), r_set((double)in->zz)};
-    const real_sym m = inverse_sym(&inverse);
-    const real3 w = r_mul_sym(&m, (real3){r_set(v[3]), r_set(v[4]), r_set(v[5])});
+    const tree_node *n = the.nodes + i;
+    const double share = get_lane(&n->light, 0) / get_lane(&n->mass, 0);
+    const real_sym d = {r_widen(n->seen[0]), r_widen(n->seen[1]), r_widen(n->seen[2]),
+                        r_widen(n->seen[3]), r_widen(n->seen[4]), r_widen(n->seen[5])};
+    const real3 w = r_mul_sym(&d, (real3){r_set(x[3]), r_set(x[4]), r_set(x[5])}),
+                torque = r_mul_sym(&n->resists, (real3){r_set(answer[3]), r_set(answer[4]), r_set(answer[5])});
     for (int k = 0; k < 3; ++k) {
-        out[k] = v[k] / (double)the.velocity[i + 1].inverse_mass;
-        out[3 + k] = get_lane(&w.x + k, 0);
+        seen[k] = share * x[k], load[k] = answer[k] / share;
+        seen[3 + k] = get_lane(&w.x + k, 0), load[3 + k] = get_lane(&torque.x + k, 0);
     }
 }
 
-// x.G x / x.D x: the tree's answer against the one that contacts count with. x becomes M D^-1 G x, M alone and D of
-// the same axes: such powers end in the direction in which the ratio is largest.
+// x.G x / x.D x: the tree's answer against the one that contacts count with. x becomes D^-1 G x: such powers end in the
+// direction in which the ratio is largest.
 static double share_of_answer(double (*x)[6])
 {
     double by_tree = 0.0, by_shares = 0.0;
@@ -692,15 +694,12 @@ static double share_of_answer(double (*x)[6])
     solve_densely(7);
     for (int32_t i = 0; i < the.tree.count; ++i) {
         const fe__velocity_line *l = the.velocity + i + 1;
-        const double share[2] = {get_lane(&the.nodes[i].light, 0), get_lane(&the.nodes[i].spins, 0)};
-        double next[6];
+        double answer[6], seen[6], load[6];
         if (!the.bodies[i + 1].colours[0]) continue;
-        for (int k = 0; k < 6; ++k) {
-            const double alone = (double)(k < 3 ? l->v[k] : l->w[k - 3]), answer = alone + by_hand.u[6 * i + k];
-            by_tree += x[i][k] * answer, by_shares += x[i][k] * share[k / 3] * alone;
-            next[k] = answer / share[k / 3];
-        }
-        load_of_velocity(i, next, x[i]);
+        for (int k = 0; k < 6; ++k) answer[k] = (double)(k < 3 ? l->v[k] : l->w[k - 3]) + by_hand.u[6 * i + k];
+        seen_by_contacts(i, x[i], answer, seen, load);
+        for (int k = 0; k < 6; ++k) by_tree += x[i][k] * answer[k], by_shares += x[i][k] * seen[k];
+        memcpy(x[i], load, sizeof load);
     }
     return by_tree / by_shares;
 }

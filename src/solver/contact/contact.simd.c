@@ -39,6 +39,11 @@
 // comes at once rotates the body until the normals balance its moment, a substep later; friction then makes good what
 // was lost: at most 1.25 times the force. A sliding contact requests more from a hundredth of a m/s on.
 #define BREAKAWAY 1.3f
+// Of a change of the impulses of a lent link, the share that the points must answer by
+#define LEAST_ALONG 1e-5f
+// The share of the speed of what a light link bears that a pass over one of its contacts changes, at least, where the
+// contact is as stiff as for the whole load
+#define LEAST_FOLLOWED 0.03f
 // The most that s of `slide` may be, where the slip all but vanishes: so that its products stay finite
 #define MOST_PART 1e6f
 // A change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
@@ -223,6 +228,15 @@ FE_INLINE wide_mask lanes_of(uint32_t bits)
     _Alignas(64) float is[FE_W];
     for (int i = 0; i < FE_W; ++i) is[i] = bits >> i & 1 ? 1.0f : 0.0f;
     return w_greater(*(wide *)is, w_set(0.0f));
+}
+
+static uint32_t bits_of(wide_mask lanes)
+{
+    _Alignas(64) float is[FE_W];
+    uint32_t bits = 0;
+    *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
+    for (int i = 0; i < FE_W; ++i) bits |= (uint32_t)(is[i] != 0.0f) << i;
+    return bits;
 }
 
 #define POINTS 4

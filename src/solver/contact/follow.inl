@@ -268,12 +268,17 @@ FE_SMALL static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, cons
 }
 
 // ---- within the step ------------------------------------------------------------------------------------------------
+// A point of a light wheel that bears a heavy load stays below its axle: beside it, a load of N would turn a wheel of
+// radius r and moment I away at a rate of sqrt(N r / I), beyond that of the substeps.
 FE_INLINE wide_mask NAMED(moving)(const ROW *row, const motion *m, int kind)
 {
-    wide_mask moving = w_or(w_greater(row->follows, w_set(0.0f)), w_greater(sine_square(m->rotation_b), row->still_b));
-    if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return moving;
-    moving = w_or(moving, w_greater(sine_square(m->rotation_a), row->still_a));
-    return w_or(moving, w_greater(w_dot(m->shift, m->shift), w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
+    wide_mask moving = w_greater(sine_square(m->rotation_b), row->still_b);
+    if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
+        moving = w_or(moving, w_greater(sine_square(m->rotation_a), row->still_a));
+        moving = w_or(moving, w_greater(w_dot(m->shift, m->shift), w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
+    }
+    if (row->lent) moving = w_and(moving, w_not(lanes_of(row->lent)));
+    return w_or(moving, w_greater(row->follows, w_set(0.0f)));
 }
 
 // The warm start that the bodies carry is v - start: what changed in it without an impulse, `change` on B, is taken

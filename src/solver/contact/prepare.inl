@@ -122,6 +122,58 @@ FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
     NAMED(note_gaps)(row);
 }
 
+// The inverse mass with which a body counts for the softness: of what a tree lends (tree/lend.inl) the part that
+// lock_bits say
+FE_INLINE wide NAMED(soft_mass)(const side *b)
+{
+    wide part = w_fraction(b->locks);
+    return b->inverse_mass * w_choose(w_greater(part, w_set(0.0f)), part, w_set(1.0f));
+}
+
+// The mass that equal impulses at all points push: 1 / K,  K = sum K_ij / n^2
+FE_INLINE wide NAMED(mass_of_all)(const ROW *row)
+{
+    wide sum = w_set(0.0f), count = sum, one = w_set(1.0f);
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        wide mass = row->point[j].mass, response = w_inverse_or_zero(mass), others = w_set(0.0f);
+        UNROLL for (int i = 0; i < j; ++i) others = others + w_choose(w_greater(row->point[i].mass, w_set(0.0f)),
+                                                                      row->coupling[coupling_of[i][j]], w_set(0.0f));
+        count = count + w_choose(w_greater(mass, w_set(0.0f)), one, w_set(0.0f));
+        sum = sum + response * (one + 2.0f * others);
+    }
+    return count * count * w_inverse_or_zero(sum);
+}
+
+// A soft point bears m w^2 for each metre that it is deep, m what it knows of the bodies' masses. Where that is a
+// tree's, it is less than what stands on the point: as much less as keeps the passes stable. There the stiffness is
+// that of the mass mu that the tree has at the body's centre,
+//     (1 - ms) / ms = m / mu a3 / (a2 a3)
+// which passes follow as long as they change the speed of mu by a thirtieth, by the points of this contact alone.
+static __attribute__((noinline)) void NAMED(stiffen)(ROW *row, const pair *p, const fe__softness *k, wide_mask lent)
+{
+    wide mass = row->point[0].mass;
+    UNROLL for (int i = 1; i < POINTS; ++i) mass = w_max(mass, row->point[i].mass);
+    wide response = NAMED(soft_mass)(&p->a) + NAMED(soft_mass)(&p->b);
+    row->lent = bits_of(lent);
+    wide share = NAMED(mass_of_all)(row) * response;
+    wide part = mass * response + w_max(1.0f - share * (1.0f / LEAST_FOLLOWED), w_set(0.0f));
+    row->ease = w_min(2.0f * share, w_set(1.0f));
+    wide scale = 1.0f / (1.0f + part * (k->impulse_scale / k->mass_scale));
+    row->mass_scale = w_choose(lent, w_max(scale, row->mass_scale), row->mass_scale);
+}
+
+FE_INLINE void NAMED(find_softness)(ROW *row, const pair *p, const fe__step_constants *c, int kind)
+{
+    const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
+    wide zero = w_set(0.0f);
+    row->mass_scale = w_set(k->mass_scale);
+    wide_mask lent = w_greater(w_fraction(p->b.locks), zero);
+    if (kind & FE__ROW_PAIR) lent = w_or(lent, w_greater(w_fraction(p->a.locks), zero));
+    row->lent = 0;
+    if (w_any(lent)) NAMED(stiffen)(row, p, k, lent);
+}
+
 FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__records *of,
                                   const fe__step_constants *c, int kind)
 {
@@ -161,6 +213,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
+    NAMED(find_softness)(row, &p, c, kind);
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, c, kind);
     row->load = NAMED(load_of)(row);
     NAMED(apply_all)(row, &p, kind);

@@ -35,10 +35,13 @@ typedef struct ROW {
     uint32_t gaps; // lanes whose gap is greater than 0, a bit each
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before
+    uint32_t lent;   // lanes of which a body shows the mass of its tree, a bit each
     wide span[3];    // centre of A - centre of B
     contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
+    wide mass_scale;                    // of the softness, see find_softness
+    wide ease;                          // of lent lanes, see stiffen
     // relax only
     wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
     wide total[POINTS];          // of the impulses of the substeps so far
@@ -223,6 +226,93 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
     UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
 }
 
+// The points of a row without weights: A = K + (1 / w - 1 / m) of its diagonal, w_i = scale_i m_i: what they answer to
+// impulses, with the softness
+typedef struct NAMED(answers) {
+    wide k[POINTS][POINTS], weight[POINTS];
+} NAMED(answers);
+
+FE_INLINE void NAMED(find_answers)(const ROW *row, const wide *scale, NAMED(answers) * out)
+{
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        wide inverse = w_inverse_or_zero(row->point[j].mass);
+        out->weight[j] = scale ? scale[j] * row->point[j].mass : row->point[j].mass;
+        out->k[j][j] = w_inverse_or_zero(out->weight[j]);
+        UNROLL for (int i = 0; i < j; ++i) out->k[i][j] = out->k[j][i] =
+            inverse * row->coupling[coupling_of[i][j]] *
+            w_choose(w_greater(row->point[i].mass, w_set(0.0f)), w_set(1.0f), w_set(0.0f));
+    }
+}
+
+FE_INLINE wide NAMED(answer)(const NAMED(answers) * a, const wide *d, int j)
+{
+    wide sum = a->k[j][0] * d[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) sum = sum + a->k[j][i] * d[i];
+    return sum;
+}
+
+FE_INLINE wide NAMED(product)(const wide *a, const wide *b)
+{
+    wide sum = a[0] * b[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) sum = sum + a[i] * b[i];
+    return sum;
+}
+
+// Of a link that shows the mass of its tree. A wheel with a flat side spins about its axle as easily as ever, and lifts
+// the cart: a step of steepest descent does one or the other. Conjugate gradients (M. Hestenes and E. Stiefel, 1952) do
+// all three that the points of a plane can ask for. What they leave above 0 is gone to as far as it takes energy.
+static __attribute__((noinline)) void NAMED(predict_lent)(ROW *row, wide *request, const wide *scale)
+{
+    NAMED(answers) a;
+    wide zero = w_set(0.0f), wish[POINTS], r[POINTS], z[POINTS], d[POINTS], by[POINTS], to[POINTS];
+    wide_mask lent = lanes_of(row->lent);
+    NAMED(find_answers)(row, scale, &a);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        to[i] = zero, z[i] = d[i] = request[i] - row->point[i].impulse;
+        r[i] = wish[i] = a.k[i][i] * d[i];
+    }
+    wide square = NAMED(product)(r, z);
+    for (int step = 0; step < FE__POINTS - 1; ++step) {
+        wide size = zero;
+        UNROLL for (int j = 0; j < POINTS; ++j) by[j] = NAMED(answer)(&a, d, j), size = size + a.k[j][j] * d[j] * d[j];
+        wide along = NAMED(product)(d, by);
+        wide share = w_choose(w_greater(along, LEAST_ALONG * size), square / along, zero);
+        UNROLL for (int i = 0; i < POINTS; ++i)
+        {
+            to[i] = to[i] + share * d[i], r[i] = r[i] - share * by[i];
+            z[i] = a.weight[i] * r[i];
+        }
+        wide left = NAMED(product)(r, z), next = left * w_inverse_or_zero(square);
+        UNROLL for (int i = 0; i < POINTS; ++i) d[i] = z[i] + next * d[i];
+        square = left;
+    }
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = w_max(row->point[i].impulse + to[i], zero) - row->point[i].impulse;
+    UNROLL for (int j = 0; j < POINTS; ++j) by[j] = NAMED(answer)(&a, d, j);
+    wide share = w_clamp(NAMED(product)(d, wish) * w_inverse_or_zero(NAMED(product)(d, by)), zero, w_set(1.0f));
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        contact_point *q = row->point + i;
+        q->impulse = w_choose(lent, w_max(q->impulse + share * d[i], zero), q->impulse);
+        request[i] = w_choose(lent, request[i] - a.weight[i] * share * (by[i] - a.k[i][i] * d[i]), request[i]);
+    }
+}
+
+static __attribute__((noinline)) void NAMED(predict_mixed)(ROW *row, wide *request, const wide *scale)
+{
+    wide_mask lent = lanes_of(row->lent);
+    wide asked[POINTS], before[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i) asked[i] = request[i], before[i] = row->point[i].impulse;
+    NAMED(predict_points)(row, request, scale);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        row->point[i].impulse = w_choose(lent, before[i], row->point[i].impulse);
+        request[i] = w_choose(lent, asked[i], request[i]);
+    }
+    NAMED(predict_lent)(row, request, scale);
+}
+
 // Runs the points against each other on their impulses. request[i] is the new impulse of point i before max(., 0); a
 // change d at point i lowers request[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about
 // A's centre.
@@ -231,7 +321,10 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
-    if (POINTS > 1) NAMED(predict_points)(row, request, scale);
+    if (POINTS > 1 && row->lent)
+        NAMED(predict_mixed)(row, request, scale);
+    else if (POINTS > 1)
+        NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *q = row->point + i;
@@ -257,40 +350,57 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
+// Lanes in which passes are too slow for a loaded point to close its gap at once, see stiffen
+FE_INLINE wide_mask NAMED(eased)(const ROW *row, int i)
+{
+    return w_and(lanes_of(row->lent), w_greater(row->point[i].impulse, w_set(0.0f)));
+}
+
 // The impulses that the points request while the others keep theirs, before max(., 0). `scale`: weights of their
-// velocities. Soft:   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's
-// otherwise Relax, and wherever there is a gap (for a loaded point, of more than TOUCHING): l' = max(l - m (vn + max(s
-// / h, 0)), 0)
-FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request,
-                               wide *scale)
+// velocities. Soft:   l' = max(ms l - m (ms vn + bias), 0);   bias = ms s / h where the gap s > 0, the spring's
+// otherwise, which keeps ms = 1 - is of the impulse. Relax, and wherever there is a gap (for a loaded point, of more
+// than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
+FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, int lent,
+                               wide *request, wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed),
-         rate = w_set(k->mass_scale * k->bias_rate);
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = row->mass_scale * k->bias_rate;
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
+        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->ease * ahead, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
             continue;
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
-        scale[i] = w_choose(apart, one, w_set(k->mass_scale));
+        if (lent) apart = w_and(apart, w_not(NAMED(eased)(row, i)));
+        scale[i] = w_choose(apart, one, row->mass_scale);
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
-        request[i] =
-            w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
+        request[i] = scale[i] * q->impulse - q->mass * (scale[i] * vn + bias);
     }
+}
+
+// Seldom
+FE_SMALL static __attribute__((noinline)) void NAMED(lent_requests)(ROW *row, const fe__step_constants *c,
+                                                                    const pair *p, int kind, int soft, wide *request,
+                                                                    wide *scale)
+{
+    NAMED(requests)(row, c, p, kind, soft, 1, request, scale);
 }
 
 // Returns by how much the load changed
 FE_INLINE wide NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     wide request[POINTS], scale[POINTS], sum;
-    NAMED(requests)(row, c, p, kind, soft, request, scale);
+    if (row->lent)
+        NAMED(lent_requests)(row, c, p, kind, soft, request, scale);
+    else
+        NAMED(requests)(row, c, p, kind, soft, 0, request, scale);
     wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
     return sum;

@@ -1,15 +1,18 @@
 // lend.inl - contacts see the masses of a tree, and the tree takes what they gave. Part of tree.simd.c.
 //
-// While contacts are solved, the lines of touched links hold shares of their inverse masses (response.inl). What a
-// contact changes of a velocity by them is an impulse all the same: over the share it is the change of the body alone,
-// from which the tree is solved. So it is for `start`, from which they take what no warm start shall repeat.
+// While contacts are solved, the lines of touched links hold what the tree answers there instead of their own inverse
+// masses (response.inl). What a contact changes of a velocity by them is an impulse all the same, l = D^-1 dv. With the
+// body's own mass it is the change of the body alone, M^-1 l, from which the tree is solved. So it is for `start`, from
+// which they take what no warm start shall repeat.
 
-static void write_inertia(const pass *t, const tree_node *n, int32_t lanes, real spins)
+// lock_bits are whole numbers. What a line says beside them, 1/c, tells the rows two things. Its inertia stays as it is
+// while the body turns: D^-1 of a D that some rows have turned, and others not, would make much of what is little, as D
+// is far from round. And the softness is that of D/c, see stiffen.
+
+static void write_inertia(const pass *t, const tree_node *n, int32_t lanes, const half *inverse)
 {
-    const real_sym *i = &n->first_inverse;
-    const real own[6] = {i->xx, i->xy, i->xz, i->yy, i->yz, i->zz};
     lines l = read_lines(t->solver->inertia, &n->line);
-    for (int k = 0; k < 6; ++k) l.a[k] = narrow(spins * own[k]);
+    for (int k = 0; k < 6; ++k) l.a[k] = inverse[k];
     write_lines(t->solver->inertia, &n->line, lanes, &l);
 }
 
@@ -24,26 +27,35 @@ static void lend(const pass *t)
         lines v = n->held = read_lines(t->solver->velocity, &n->line);
         lines start = n->held_start = read_lines(t->solver->start, &n->line);
         v.a[3] = start.a[3] = narrow(n->light / n->mass);
+        v.a[7] += n->part;
         write_lines(t->solver->velocity, &n->line, lanes, &v);
         write_lines(t->solver->start, &n->line, lanes, &start);
-        write_inertia(t, n, lanes, n->spins);
+        write_inertia(t, n, lanes, n->seen);
     }
 }
 
-// held + (now - held) / share. Returns the lanes in which it is not held
+FE_INLINE void return_inertia(const pass *t, const tree_node *n, int32_t lanes)
+{
+    const real_sym *i = &n->first_inverse;
+    const half own[6] = {narrow(i->xx), narrow(i->xy), narrow(i->xz), narrow(i->yy), narrow(i->yz), narrow(i->zz)};
+    write_inertia(t, n, lanes, own);
+}
+
+// held + M^-1 D^-1 (now - held). Returns the lanes in which it is not held
 FE_INLINE int32_t take_line(const tree_node *n, void *of, const lines *held, int32_t lanes)
 {
     const lines now = read_lines(of, &n->line);
+    const real3 v = widen3(held->a), w = widen3(held->a + 4);
+    const real3 dv = r_sub(widen3(now.a), v), dw = r_sub(widen3(now.a + 4), w);
     lines own = *held;
-    real most = r_set(0.0);
-    for (int k = 0; k < FE__LINE; ++k) {
-        if (k % 4 == 3) continue; // no velocity
-        const real was = r_widen(held->a[k]), change = r_widen(now.a[k]) - was;
-        own.a[k] = narrow(was + change / (k < 4 ? n->light : n->spins));
-        most = r_max(most, r_abs(change));
-    }
+    narrow3(own.a, r_add_scaled(v, 1.0 / n->light, dv));
+    narrow3(own.a + 4, r_add(w, spin_of(n, r_mul_sym(&n->resists, dw))));
     write_lines(of, &n->line, lanes, &own);
-    return r_bits(r_greater(most, r_set(0.0))) & lanes;
+    const real3 none = r_zero3();
+    real most = none.x;
+    most = r_max(r_max(most, r_abs(dv.x)), r_max(r_abs(dv.y), r_abs(dv.z)));
+    most = r_max(r_max(most, r_abs(dw.x)), r_max(r_abs(dw.y), r_abs(dw.z)));
+    return r_bits(r_greater(most, none.x)) & lanes;
 }
 
 // Velocities and masses are the bodies' own again. Returns the lanes in which contacts changed a velocity
@@ -54,7 +66,7 @@ static int32_t take_back(const pass *t)
         const tree_node *n = t->nodes + i;
         const int32_t lanes = n->touched & t->head->lent;
         if (!lanes) continue;
-        write_inertia(t, n, lanes, r_set(1.0));
+        return_inertia(t, n, lanes);
         struck |= take_line(n, t->solver->velocity, &n->held, lanes);
         take_line(n, t->solver->start, &n->held_start, lanes);
     }

@@ -83,9 +83,11 @@ typedef struct tree_node {
     real rod;             // length of a distance joint, m; else 0
     // of a link that contacts touch, see response.inl
     int32_t touched, heavier; // lanes; those in which the tree makes it heavier
-    real light, spins;        // shares of its inverse mass, of its inverse inertia
-    real_sym root;            // of the inertia
-    real per_root_mass;       // 1 / sqrt(mass)
+    real light, gives;        // shares of its inverse mass: what contacts see of it, and the mean of all directions
+    half part;                // of what contacts see, that of the link alone: 0..1
+    real_sym turns, root;     // A of its rotations, and L of L L^T = A
+    half seen[6];             // what contacts see of its rotations, xx xy xz yy yz zz, for as long as the step lasts
+    real_sym resists;         // the inverse of that
     six x;                    // of the powers
     real3 place;              // of the centre, m: see whirl.inl
     lines held, held_start;   // of the velocities when contacts took over

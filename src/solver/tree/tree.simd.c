@@ -418,7 +418,7 @@ static void prepare_trees(const fe__tree_job *job)
     t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
     if (t.kind == FE__TREE_ROPE) drop_pulls(&t), t.head->touched = find_touched_trees(&t);
-    if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
+    if (t.kind == FE__TREE_HEAVY || t.kind == FE__TREE_SHORT) find_lenders(&t);
     lend(&t);
 }
 
@@ -485,7 +485,7 @@ static void receive_trees(const fe__tree_job *job)
     for (int32_t i = 0; i < t.count; ++i) add_tension(&t, i, pull_now(t.nodes + i));
     damp_jerk(&t, lanes);
     const int32_t fast = apply(&t, lanes, 1);
-    forget_locks(&t, fast);
+    forget_locks(&t, t.kind == FE__TREE_SHORT ? lanes : fast);
     calm(&t, fast);
 }
 
