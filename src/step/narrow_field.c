@@ -29,6 +29,7 @@ typedef struct pair_view {
     const fe__body *a, *b; // the solver's
     const fe__shape *field, *other;
     fe_vec3 known[FE__PATCHES]; // normals of what touches now, the field's frame
+    fe_dvec3 known_at[FE__PATCHES];
     int32_t known_count;
     const fe__mesh_near *near; // triangles of all looks, or NULL
     float dt, speed_limit;     // s; m/s that no point of either body exceeds
@@ -42,13 +43,11 @@ static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, co
 {
     fe__ground ground = fe__store_ground(p->world->store, &p->field->form);
     ground.near = p->near;
-    return (fe__terrain){ground,
-                         fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-                         around,
-                         p->known,
-                         p->known_count,
-                         p->is_last,
-                         p->fall};
+    return (fe__terrain){
+        ground,      fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+        around,      p->known,
+        p->known_at, p->known_count,
+        p->is_last,  p->fall};
 }
 
 static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
@@ -278,6 +277,18 @@ static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
     return count;
 }
 
+static void remember_faces(pair_view *p, const plan *plans, int32_t count)
+{
+    const fe__pose *field = &p->field->pose;
+    fe_dvec3 origin = fe__drotate_back(field->rotation, fe__dsub(p->other->pose.position, field->position));
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__manifold_point *point = plans[i].patch->points;
+        fe_vec3 n = plans[i].patch->normal, on_face = fe__add_scaled(point->point, -0.5f * point->separation, n);
+        p->known[i] = n, p->known_at[i] = fe__dadd(origin, fe__widen(on_face));
+    }
+    p->known_count = count;
+}
+
 static int32_t has_near(const fe__patch *patch, float distance)
 {
     for (int32_t i = 0; i < patch->count; ++i)
@@ -318,8 +329,7 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
             ahead = look_ahead(&view, &now, &then);
             if (ahead) count = add_new_directions(plans, 0, &then);
         } else if (reach > margin) { // it rolls or slides: into what rises before it
-            for (int32_t i = 0; i < count; ++i) view.known[i] = plans[i].patch->normal;
-            view.known_count = count;
+            remember_faces(&view, plans, count);
             look_after(&view, dt, margin, &then);
             ahead = 1;
             count = add_new_directions(plans, count, &then);

@@ -35,7 +35,7 @@ static int32_t ground_shuts(const seam *s, const fe__neighbour *n, fe_vec3 q, fe
 // Is the body carried over to another face of the solid from across a gap?
 static int32_t gap_shuts(const seam *s, fe_vec3 q, fe_vec3 m, float separation)
 {
-    const fe__crossing crossing = {s->other, &s->around, NULL, s->fall};
+    const fe__crossing crossing = {.body = s->other, .around = &s->around, .fall = s->fall};
     const float beside = 0.01f; // cosine
     for (int32_t face = 0; face < fe__solid_face_count(&s->solid); ++face) {
         fe_vec3 f = fe__solid_normal(&s->solid, face);

@@ -1,9 +1,10 @@
 // What slides over level tiles with narrow gaps between them, or with steps of up to a millimetre, goes on.
 #include "laws/law.h"
 
-typedef enum tile_kind { BOXES, HULLS, PARTS, CELLS, MESHES, FIELDS, TILE_KINDS } tile_kind;
-static const char *const tile_names[TILE_KINDS] = {"boxes",           "hulls",  "parts of a compound",
-                                                   "cells of a mesh", "meshes", "heightfields"};
+typedef enum tile_kind { BOXES, HULLS, PARTS, CELLS, CLOSED, MESHES, FIELDS, TILE_KINDS } tile_kind;
+static const char *const tile_names[TILE_KINDS] = {"boxes",           "hulls",           "parts of a compound",
+                                                   "cells of a mesh", "boxes of a mesh", "meshes",
+                                                   "heightfields"};
 
 enum { TILES = 8 };
 typedef struct floor_of_tiles {
@@ -27,14 +28,36 @@ static void add_quad(soup *m, const floor_of_tiles *f, int i, int k)
     m->triangle_count += 2;
 }
 
+// The sides of the quad that was added last, and its underside
+static void close_below(soup *m, double deep)
+{
+    static const int around[4] = {0, 1, 3, 2};
+    uint32_t at = (uint32_t)m->vertex_count, top = at - 4;
+    for (int corner = 0; corner < 4; ++corner) {
+        float *v = m->vertices + 3 * m->vertex_count++;
+        memcpy(v, v - 12, 3 * sizeof *v);
+        v[1] -= (float)deep;
+    }
+    for (int k = 0; k < 4; ++k) {
+        uint32_t a = (uint32_t)around[k], b = (uint32_t)around[(k + 1) % 4];
+        const uint32_t side[6] = {at + a, top + a, top + b, at + a, top + b, at + b};
+        memcpy(m->indices + 3 * m->triangle_count, side, sizeof side);
+        m->triangle_count += 2;
+    }
+    const uint32_t under[6] = {at, at + 1, at + 3, at, at + 3, at + 2};
+    memcpy(m->indices + 3 * m->triangle_count, under, sizeof under);
+    m->triangle_count += 2;
+}
+
 static void lay_meshes(scene *s, const floor_of_tiles *f, fe_material m)
 {
-    float vertices[TILES * TILES * 12];
-    uint32_t indices[TILES * TILES * 6];
+    static float vertices[TILES * TILES * 24];
+    static uint32_t indices[TILES * TILES * 36];
     soup all = {vertices, indices, 0, 0};
     for (int i = 0; i < TILES * TILES; ++i) {
         add_quad(&all, f, i / TILES, i % TILES);
-        if (f->kind == CELLS && i < TILES * TILES - 1) continue;
+        if (f->kind == CLOSED) close_below(&all, 0.4);
+        if (f->kind != MESHES && i < TILES * TILES - 1) continue;
         place_mesh(s, FE_BODY_STATIC, make_mesh(s, &all, 0), v3(0, 0, 0), UNTURNED, m);
         all.vertex_count = all.triangle_count = 0;
     }
@@ -58,7 +81,7 @@ static void lay_compound(scene *s, const floor_of_tiles *f, fe_material m)
 
 static void lay(scene *s, const floor_of_tiles *f, fe_material m)
 {
-    if (f->kind == CELLS || f->kind == MESHES) {
+    if (f->kind == CELLS || f->kind == CLOSED || f->kind == MESHES) {
         lay_meshes(s, f, m);
         return;
     }
@@ -83,7 +106,7 @@ static floor_of_tiles any_floor(dice *d)
 {
     floor_of_tiles f = {.kind = (tile_kind)pick(d, TILE_KINDS)};
     f.gap = chance(d, 0.1) ? 0 : spread(d, 1e-4, 0.02);
-    f.step = chance(d, 0.4) ? 0 : uniform(d, 0, 0.001);
+    f.step = chance(d, 0.4) || f.kind == CLOSED ? 0 : uniform(d, 0, 0.001);
     for (int i = 0; i < TILES * TILES; ++i) f.height[i / TILES][i % TILES] = chance(d, 0.5) ? f.step : 0;
     return f;
 }
@@ -116,7 +139,7 @@ static double what_spans_a_gap_slides_on(dice *d, char *told)
     scene s = law_scene(r);
     floor_of_tiles f = any_floor(d);
     lay(&s, &f, friction(0));
-    int kind = pick(d, 4);
+    int kind = f.kind == CLOSED ? 2 + pick(d, 2) : pick(d, 4); // of boxes and hulls on those see CHANGELOG.md
     double a = spread(d, 0.1, 0.4), b = a * uniform(d, 0.3, 1), c = a * uniform(d, 0.4, 1),
            heading = uniform(d, -PI, PI), speed = spread(d, 0.5, 10), height = kind == 3 ? 0.5 * a : b,
            turn = kind == 3 ? PI / 4 + PI / 2 * pick(d, 4) + uniform(d, -0.4, 0.4) : uniform(d, -PI, PI);

@@ -238,7 +238,7 @@ static void box_and_capsule_are_exact_within_a_tie(void **state)
 
 // ---- box against box -----------------------------------------------------------------------------------------------
 // Overlapping boxes: the exhaustive test of 15 axes on corners gives the depth; the kernel may prefer a face twice by a
-// tie; edges side by side are less than 1.83 times as deep (box_edges.c). Boxes apart have points exactly when their
+// tie; edges side by side are less than 1.83 times as deep (facing_edges.c). Boxes apart have points exactly when their
 // distance is within the margin, and none is nearer than the gap along the best axis.
 static void check_boxes(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {

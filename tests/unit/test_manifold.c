@@ -363,7 +363,7 @@ static void forms_in_one_place_have_a_way_out(void **state)
 }
 
 // 1 mm: every tolerance has shrunk with the size. The depth is exact within two ties, 2 % of the smallest width each;
-// edges side by side are as deep as box_edges.c says.
+// edges side by side are as deep as facing_edges.c says.
 static void boxes_of_a_millimetre_are_as_exact_for_their_size(void **state)
 {
     (void)state;

@@ -150,10 +150,10 @@ int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dv
     return rises(s, rim->p, m, near, rim);
 }
 
-int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f)
+int32_t fe__ground_is_level_about(const fe__ground *s, fe_dvec3 p, fe_dvec3 f, double level, double beside)
 {
-    const double level = (double)FE__LEVEL;
-    fe__bounds box = {{p.x - level, p.y - level, p.z - level}, {p.x + level, p.y + level, p.z + level}};
+    double most = fe__maxd(level, beside);
+    fe__bounds box = {{p.x - most, p.y - most, p.z - most}, {p.x + most, p.y + most, p.z + most}};
     fe__ground_walk walk;
     fe__ground_begin(&walk, s, &box, p);
     for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
@@ -162,7 +162,12 @@ int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f)
         fe_dvec3 n = normal_of(v);
         double cosine = fe__ddot(n, f), over = fe__ddot(n, fe__dsub(p, v[0]));
         if (fe__ground_is_two_sided(s)) cosine = fe__absd(cosine);
-        if (cosine > (double)FE__LEVEL_COS && fe__absd(over) <= level && is_over(v, n, p, 0.0)) return 1;
+        if (cosine > (double)FE__LEVEL_COS && fe__absd(over) <= level && is_over(v, n, p, beside)) return 1;
     }
     return 0;
+}
+
+int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f)
+{
+    return fe__ground_is_level_about(s, p, f, (double)FE__LEVEL, 0.0);
 }

@@ -70,6 +70,8 @@ int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double nea
 
 // Has it a triangle with the normal f that is level with p (FE__LEVEL), and that p lies over or under?
 int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f);
+// The same, over or under by at most `level`, and beside the triangle by at most `beside`, m
+int32_t fe__ground_is_level_about(const fe__ground *s, fe_dvec3 p, fe_dvec3 f, double level, double beside);
 
 // A face of a solid that ends at p and lies along `inward` from there, touched by what is at `from`
 typedef struct fe__solid_rim {

@@ -10,14 +10,15 @@
 // axis_separation what that test found along it: a face that has hardly moved since is cut again without another test.
 #define FE_W 4
 #include "collision/form/clip.h"
-#include "collision/manifold/box_edges.h"
+#include "collision/manifold/facing_edges.h"
+#include "collision/manifold/hull_box.h"
 #include "collision/manifold/kernels.h"
 
 #include "core/simd.h"
 
 #include <float.h>
 
-enum { FACE_A = 0, FACE_B = 3, EDGE = 6, AXES = 15 };
+enum { FACE_A = 0, FACE_B = 3, EDGE = 6, AXES = 15, FACING_EDGES = AXES };
 
 typedef struct box_pair {
     wide a, b, t;
@@ -314,6 +315,27 @@ static int32_t has_face_along(const box_pair *q, int32_t face)
     return fe__maxf(across[0], fe__maxf(across[1], across[2])) > FE_FACE_COS;
 }
 
+// They have one axis in common but for 5 degrees, and no face meets another.
+static int32_t may_have_facing_edges(const box_pair *q, int32_t axis)
+{
+    if (axis < EDGE && has_face_along(q, axis)) return 0;
+    const wide across = w_max(q->abs_row[0], w_max(q->abs_row[1], q->abs_row[2]));
+    return fe__maxf(across[0], fe__maxf(across[1], across[2])) > FE_FACE_COS;
+}
+
+static int32_t touch_facing_edges(const box_pair *q, const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
+                                  int32_t axis, float separation, float margin, fe__manifold *manifold)
+{
+    if (!may_have_facing_edges(q, axis)) return 0;
+    fe__box_hull of_a, of_b;
+    fe__box_as_hull(a, &of_a), fe__box_as_hull(b, &of_b);
+    fe__least_overlap least = {normal_along(q, axis), separation};
+    int32_t name;
+    if (!fe__touch_facing_edges(&of_a.hull, &of_b.hull, b_in_a, &least, margin, manifold, &name)) return 0;
+    manifold->axis = FACING_EDGES + name;
+    return 1;
+}
+
 static int32_t is_kept(const box_pair *q, int32_t axis, float now, float before)
 {
     return axis < EDGE && fe__absf(now - before) < KEEP_TIES * q->tie && now > -KEEP_TIES * q->tie;
@@ -330,8 +352,7 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
             return;
         }
         if (is_kept(&q, manifold->axis, now, manifold->axis_separation)) {
-            if (!has_face_along(&q, manifold->axis) && fe__touch_facing_edges(a, b, b_in_a, now, margin, manifold))
-                return;
+            if (touch_facing_edges(&q, a, b, b_in_a, manifold->axis, now, margin, manifold)) return;
             touch_faces(&q, manifold->axis, margin, manifold);
             if (manifold->count > 0) return;
         }
@@ -345,9 +366,7 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
         manifold->normal = normal_along(&q, axis);
         return;
     }
-    if ((axis >= EDGE || !has_face_along(&q, axis)) &&
-        fe__touch_facing_edges(a, b, b_in_a, separation, margin, manifold))
-        return;
+    if (touch_facing_edges(&q, a, b, b_in_a, axis, separation, margin, manifold)) return;
     if (axis < EDGE)
         touch_faces(&q, axis, margin, manifold);
     else

@@ -20,6 +20,7 @@ static int32_t goes_on_at(const fe__crossing *c, fe_vec3 p, fe_vec3 f)
         if (fe__solid_is_level_at(c->around->solids + i, p, f)) return 1;
     for (int32_t i = c->own ? -1 : 0; i < c->around->ground_count; ++i) {
         const fe__neighbour *n = i < 0 ? c->own : c->around->grounds + i;
+        if (i < 0 && fe__dot(c->out, c->out) > 0.0f && fe__dot(c->out, fe__sub(p, c->edge)) <= 0.0f) continue;
         if (fe__ground_is_level_at(&n->ground, fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))),
                                    fe__widen(fe__mul_transposed(&n->axes, f))))
             return 1;

@@ -5,6 +5,7 @@
 // fe__tie, and within a class the lowest feature wins. manifold->axis names the features of the last full test and
 // axis_separation what that found along them: a face that has hardly moved since is cut again without another test.
 #include "collision/form/hull_form.h"
+#include "collision/manifold/facing_edges.h"
 #include "collision/manifold/hull_axis.h"
 #include "collision/manifold/hull_box.h"
 #include "collision/manifold/kernels.h"
@@ -19,18 +20,20 @@ typedef struct hull_pair {
 } hull_pair;
 
 // ---- the axis ------------------------------------------------------------------------------------------------------
+enum { FACING_EDGES = FE__AXIS_OF_EDGES + 1 }; // a kind beside those of fe__hull_axis: edges that run side by side
+
 // kind, then the features of A and of B, 10 bits each
 static int32_t pack(const fe__hull_axis *axis) { return axis->kind << 20 | axis->a << 10 | axis->b; }
 static int32_t kind_of(int32_t packed) { return packed >> 20; }
 
-// The best axis; stops at the first class that separates by more than the margin
-static fe__hull_axis find_axis(const hull_pair *q, float margin)
+// The best axis; stops at the first class that separates by more than the margin. A face of B is better by `tie`.
+static fe__hull_axis find_axis(const hull_pair *q, float tie, float margin)
 {
     fe__hull_axis best = fe__hull_axis_of_faces_a(q->a, q->b, &q->b_in_a);
     if (best.separation > margin) return best;
     fe__hull_axis other = fe__hull_axis_of_faces_b(q->a, q->b, &q->b_in_a);
     int32_t deepest_of_a = other.a, deepest_of_b = best.b;
-    if (other.separation > best.separation + q->tie) best = other;
+    if (other.separation > best.separation + tie) best = other;
     if (best.separation > margin) return best;
     other = fe__hull_axis_of_edges(q->a, q->b, &q->b_in_a, best.separation + q->tie, deepest_of_a, deepest_of_b);
     return other.separation > best.separation + q->tie ? other : best;
@@ -91,10 +94,17 @@ static int32_t corner_of(const fe__hull *hull, const fe__hull_face *face, int32_
     return -1;
 }
 
+// What of a hull meets a face: the face whose corners are cut, and what of it lies along, but for 5 degrees
+typedef enum lying { LIES_CORNER, LIES_EDGE, LIES_FACE } lying;
+typedef struct incident {
+    int32_t face;
+    lying lies;
+} incident;
+
 // Of the faces around the vertex that which looks most against the direction: so the deepest point is among those kept.
 // Where none lies along the reference, an edge may, as a wedge's that stands on it: then one of its two faces, or the
 // other end of the edge would be lost.
-static int32_t incident_face(const fe__hull *hull, int32_t vertex, fe_vec3 direction)
+static incident find_incident(const fe__hull *hull, int32_t vertex, fe_vec3 direction)
 {
     int32_t best = -1;
     float least = FLT_MAX, flattest = FE__LIES_ALONG;
@@ -102,9 +112,9 @@ static int32_t incident_face(const fe__hull *hull, int32_t vertex, fe_vec3 direc
         float cosine = fe__dot(direction, fe__hull_normal(hull, f));
         if (cosine < least && corner_of(hull, hull->faces + f, vertex) >= 0) best = f, least = cosine;
     }
-    if (least < -FE_FACE_COS ||
-        flatter_edge(hull, hull->faces + best, corner_of(hull, hull->faces + best, vertex), direction) < flattest)
-        return best;
+    if (least < -FE_FACE_COS) return (incident){best, LIES_FACE};
+    if (flatter_edge(hull, hull->faces + best, corner_of(hull, hull->faces + best, vertex), direction) < flattest)
+        return (incident){best, LIES_EDGE};
     for (int32_t f = 0; f < hull->face_count; ++f) {
         float cosine = fe__dot(direction, fe__hull_normal(hull, f));
         int32_t corner =
@@ -113,7 +123,34 @@ static int32_t incident_face(const fe__hull *hull, int32_t vertex, fe_vec3 direc
         float rise = flatter_edge(hull, hull->faces + f, corner, direction);
         if (rise < flattest || (rise == flattest && cosine < least)) best = f, flattest = rise, least = cosine;
     }
-    return best;
+    return (incident){best, flattest < FE__LIES_ALONG ? LIES_EDGE : LIES_CORNER};
+}
+
+// Does an edge of the incident face, at the deepest vertex, run beside one of the reference's rim? Only then may these
+// two be what touches.
+static int32_t runs_beside_rim(const face_pair *p, int32_t deepest, int32_t incident, float separation)
+{
+    const fe__hull_face *face = p->own->faces + p->face, *other = p->other->faces + incident;
+    const uint8_t *corners = p->own->corners + face->first, *of_other = p->other->corners + other->first;
+    int32_t i = corner_of(p->other, other, deepest);
+    float reach = FE__FACING_REACH * fe__maxf(FE__FACING_DEPTH, -separation);
+    fe_vec3 n = fe__hull_normal(p->own, p->face), at = fe__hull_vertex(p->other, deepest), edge[2];
+    for (int32_t k = 0; k < 2; ++k) {
+        int32_t next = k == 0 ? (i + 1 < other->count ? i + 1 : 0) : (i > 0 ? i - 1 : other->count - 1);
+        edge[k] = fe__mul(&p->other_in_own.rotation, fe__sub(fe__hull_vertex(p->other, of_other[next]), at));
+    }
+    at = fe__add(p->other_in_own.position, fe__mul(&p->other_in_own.rotation, at));
+    fe_vec3 from = fe__hull_vertex(p->own, corners[face->count - 1]);
+    for (int32_t c = 0; c < face->count; ++c) {
+        fe_vec3 to = fe__hull_vertex(p->own, corners[c]), rim = fe__sub(to, from);
+        float square = fe__dot(rim, rim), off = fe__dot(fe__cross(rim, n), fe__sub(at, from));
+        from = to;
+        for (int32_t k = 0; k < 2 && off * off <= reach * reach * square; ++k) {
+            float along = fe__dot(rim, edge[k]);
+            if (along * along > FE_FACE_COS * FE_FACE_COS * square * fe__dot(edge[k], edge[k])) return 1;
+        }
+    }
+    return 0;
 }
 
 typedef struct plane_frame {
@@ -139,13 +176,13 @@ static void project(const plane_frame *frame, const fe__face *face, fe__clip_ver
 }
 
 // Cuts the other's face by the reference; points and normal are in the frame of the reference's hull.
-static void cut_faces(const hull_pair *q, const face_pair *p, int32_t deepest, float margin, fe__manifold *manifold)
+static void cut_faces(const hull_pair *q, const face_pair *p, int32_t face, float margin, fe__manifold *manifold)
 {
     const fe__mat3 *r = &p->other_in_own.rotation;
     fe_vec3 normal = fe__hull_normal(p->own, p->face), in_other = fe__mul_transposed(r, normal);
     fe__face reference, incident;
     fe__hull_polygon(p->own, p->face, normal, &reference);
-    fe__hull_polygon(p->other, incident_face(p->other, deepest, in_other), fe__neg(in_other), &incident);
+    fe__hull_polygon(p->other, face, fe__neg(in_other), &incident);
     for (int32_t i = 0; i < incident.count; ++i)
         incident.vertex[i] = fe__add(p->other_in_own.position, fe__mul(r, incident.vertex[i]));
     fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
@@ -163,12 +200,33 @@ static void cut_faces(const hull_pair *q, const face_pair *p, int32_t deepest, f
     }
 }
 
+static fe_vec3 normal_of(const hull_pair *q, int32_t kind, int32_t face)
+{
+    if (kind == FE__AXIS_OF_FACE_A) return fe__hull_normal(q->a, face);
+    return fe__neg(fe__mul(&q->b_in_a.rotation, fe__hull_normal(q->b, face)));
+}
+
+static int32_t touch_facing_edges(const hull_pair *q, fe_vec3 normal, float separation, float margin,
+                                  fe__manifold *manifold)
+{
+    fe__least_overlap least = {normal, separation};
+    int32_t name;
+    if (!fe__touch_facing_edges(q->a, q->b, &q->b_in_a, &least, margin, manifold, &name)) return 0;
+    manifold->axis = FACING_EDGES << 20 | name;
+    return 1;
+}
+
 static void touch_face(const hull_pair *q, int32_t kind, int32_t face, float margin, fe__manifold *manifold)
 {
     face_pair p = view_of(q, kind, face);
     float separation;
     int32_t deepest = deepest_below(&p, &separation);
-    cut_faces(q, &p, deepest, margin, manifold);
+    incident met =
+        find_incident(p.other, deepest, fe__mul_transposed(&p.other_in_own.rotation, fe__hull_normal(p.own, face)));
+    if (met.lies == LIES_EDGE && runs_beside_rim(&p, deepest, met.face, separation) &&
+        touch_facing_edges(q, normal_of(q, kind, face), separation, margin, manifold))
+        return;
+    cut_faces(q, &p, met.face, margin, manifold);
     if (kind == FE__AXIS_OF_FACE_A) return;
     manifold->normal = fe__neg(fe__mul(&q->b_in_a.rotation, manifold->normal));
     for (int32_t i = 0; i < manifold->count; ++i)
@@ -227,15 +285,14 @@ static void touch_edges(const hull_pair *q, const fe__hull_axis *axis, float mar
 static int32_t touch_kept_face(const hull_pair *q, float margin, fe__manifold *manifold)
 {
     int32_t packed = manifold->axis, kind = kind_of(packed);
-    if (packed < 0 || kind == FE__AXIS_OF_EDGES) return 0;
+    if (packed < 0 || kind >= FE__AXIS_OF_EDGES) return 0;
     int32_t face = kind == FE__AXIS_OF_FACE_A ? packed >> 10 & 0x3ff : packed & 0x3ff;
     face_pair p = view_of(q, kind, face);
     if (face >= p.own->face_count) return 0;
     float now, tied = KEEP_TIES * q->tie;
     deepest_below(&p, &now);
     if (now > margin) {
-        fe_vec3 n = fe__hull_normal(p.own, face);
-        fe__stay_apart(manifold, now, kind == FE__AXIS_OF_FACE_A ? n : fe__neg(fe__mul(&q->b_in_a.rotation, n)));
+        fe__stay_apart(manifold, now, normal_of(q, kind, face));
         return 1;
     }
     if (!(fe__absf(now - manifold->axis_separation) < tied && now > -tied)) return 0;
@@ -243,17 +300,28 @@ static int32_t touch_kept_face(const hull_pair *q, float margin, fe__manifold *m
     return manifold->count > 0;
 }
 
+// Do the two edges of an axis run alike, but for 5 degrees?
+static int32_t are_alike(const hull_pair *q, const fe__hull_axis *axis)
+{
+    fe_vec3 d = fe__hull_lane(&q->a->vectors, axis->a),
+            e = fe__mul(&q->b_in_a.rotation, fe__hull_lane(&q->b->vectors, axis->b));
+    float along = fe__dot(d, e);
+    return along * along > FE_FACE_COS * FE_FACE_COS * fe__dot(d, d) * fe__dot(e, e);
+}
+
 static void touch(const hull_pair *q, float margin, fe__manifold *manifold)
 {
     if (touch_kept_face(q, margin, manifold)) return;
-    fe__hull_axis axis = find_axis(q, margin);
+    // edges side by side are followed by the face that their normal has turned to
+    float tie = manifold->axis >= 0 && kind_of(manifold->axis) == FACING_EDGES ? 0.0f : q->tie;
+    fe__hull_axis axis = find_axis(q, tie, margin);
     manifold->axis = pack(&axis);
     fe__stay_apart(manifold, axis.separation, axis.normal);
     if (axis.separation > margin) return;
-    if (axis.kind == FE__AXIS_OF_EDGES)
-        touch_edges(q, &axis, margin, manifold);
-    else
+    if (axis.kind != FE__AXIS_OF_EDGES)
         touch_face(q, axis.kind, axis.kind == FE__AXIS_OF_FACE_A ? axis.a : axis.b, margin, manifold);
+    else if (!(are_alike(q, &axis) && touch_facing_edges(q, axis.normal, axis.separation, margin, manifold)))
+        touch_edges(q, &axis, margin, manifold);
 }
 
 // A hull and where its frame is in the form's

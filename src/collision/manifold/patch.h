@@ -45,6 +45,7 @@ typedef struct fe__terrain {
     // Faces whose normals are among these need not be looked at: they are touched already. Points of others may still
     // have such a normal
     const fe_vec3 *known;
+    const fe_dvec3 *known_at; // a point of each, in the surface's frame
     int32_t known_count;
     int32_t is_last; // the look is one at the end of B's way (ground.near)
     float fall;      // m, how far B may have fallen, at the look's pose, below what carries it

@@ -153,6 +153,7 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
     g.single = fe__form_is_ball(b), g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
+    fe__leave_carried(&g);
     if (!g.count && gap) *gap = gap_around(t, b, rotation, margin);
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;

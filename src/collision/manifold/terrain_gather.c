@@ -12,13 +12,21 @@ static int32_t ends_at_a_side(const fe__ground *s, int32_t index)
     return fe__ground_is_rim(s, index, 0) || fe__ground_is_rim(s, index, 1) || fe__ground_is_rim(s, index, 2);
 }
 
+static fe__neighbour own_ground(const fe__terrain *t)
+{
+    return (fe__neighbour){t->ground, t->origin, {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
+}
+
 static int32_t is_carried_over(const fe__gathering *g, const fe__tile *tile, fe_vec3 m, const fe_vec3 *rim,
                                float separation)
 {
     const fe__terrain *t = g->terrain;
     if (fe__is_along_face(m, tile->normal) || !ends_at_a_side(&t->ground, tile->index)) return 0;
-    const fe__neighbour own = {t->ground, t->origin, {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
-    const fe__crossing crossing = {{g->form, {0.0f, 0.0f, 0.0f}, *g->rotation}, t->around, &own, t->fall};
+    const fe__neighbour own = own_ground(t);
+    const fe__crossing crossing = {.body = {g->form, {0.0f, 0.0f, 0.0f}, *g->rotation},
+                                   .around = t->around,
+                                   .own = &own,
+                                   .fall = t->fall};
     return fe__is_carried_over(&crossing, tile->form.vertex[0], tile->normal, rim, separation);
 }
 
@@ -26,6 +34,105 @@ int32_t fe__tile_feels_along(const fe__gathering *g, const fe__tile *tile, fe_ve
                              float separation)
 {
     return fe__tile_allows(g->terrain, tile, m) && !is_carried_over(g, tile, m, rim, separation);
+}
+
+static fe_vec3 on_surface(const fe__raw_patch *patch, int32_t i)
+{
+    return fe__add_scaled(patch->points[i].point, -0.5f * patch->points[i].separation, patch->normal);
+}
+
+static int32_t is_level_about(const fe__terrain *t, fe_vec3 p, fe_vec3 n, float level, float beside)
+{
+    return fe__ground_is_level_about(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(n), (double)level,
+                                     (double)beside);
+}
+
+// A plane that carries the body
+typedef struct carrier {
+    fe_vec3 f, p; // normal, a point
+} carrier;
+
+// A point nearer than this to the carrier's plane may lie at an edge that reaches it, m: of a face that is cut at the
+// edge, or where what is round touches the edge
+#define FACE_NEAR 0.02f
+#define EDGE_NEAR 0.002f
+
+static float height_over(const fe__raw_patch *patch, int32_t i, const carrier *by)
+{
+    return fe__dot(by->f, fe__sub(on_surface(patch, i), by->p));
+}
+
+// Is point i of a patch at an edge beyond which the mesh is level with the carrier, and does that carry the body over a
+// gap from there? At such an edge what is touched goes no farther along f, as a wall does.
+static int32_t is_carried_at(const fe__gathering *g, const fe__raw_patch *patch, int32_t i, const carrier *by)
+{
+    // m: to each side of the edge, and along it, where at a tile's corner only that is inside; by which the edge may
+    // lie higher or lower than the carrier, and a sink; above that
+    const float step = 0.001f, uneven = 0.0015f, above = 0.0025f;
+    const fe__terrain *t = g->terrain;
+    fe_vec3 m = patch->normal, f = by->f, q = on_surface(patch, i);
+    fe_vec3 edge = fe__add_scaled(q, -height_over(patch, i, by), f), out = fe__add_scaled(m, -fe__dot(m, f), f);
+    out = fe__scale(1.0f / fe__length(out), out);
+    if (!is_level_about(t, fe__add_scaled(edge, -step, out), f, uneven, step) ||
+        is_level_about(t, fe__add_scaled(edge, above, f), m, FE__LEVEL, step))
+        return 0;
+    const fe__neighbour own = own_ground(t);
+    const fe__crossing crossing = {.body = {g->form, {0.0f, 0.0f, 0.0f}, *g->rotation},
+                                   .around = t->around,
+                                   .own = &own,
+                                   .fall = t->fall,
+                                   .edge = edge,
+                                   .out = out};
+    return fe__is_carried_over(&crossing, edge, f, &q, patch->points[i].separation);
+}
+
+// The points of a patch near the carrier's plane, if one of them is carried over to it: where tiles meet in corners,
+// others lie beside them
+static uint32_t points_carried(const fe__gathering *g, const fe__raw_patch *patch, const carrier *by)
+{
+    const float steepest = -0.01f; // cosine
+    int32_t is_round = g->form->radius > 0.0f;
+    float flattest = is_round || fe__form_is_curved(g->form) ? 0.9999f : 0.5f,
+          distance = is_round ? EDGE_NEAR : FACE_NEAR;
+    uint32_t near = 0, carried = 0;
+    float cosine = fe__dot(patch->normal, by->f);
+    if (cosine < steepest || cosine > flattest) return 0;
+    for (int32_t i = 0; i < patch->count; ++i) {
+        if (fe__absf(height_over(patch, i, by)) > distance) continue;
+        near |= 1u << i;
+        if (!carried) carried = (uint32_t)is_carried_at(g, patch, i, by);
+    }
+    return carried ? near : 0;
+}
+
+static uint32_t points_carried_by_any(const fe__gathering *g, const fe__raw_patch *patch)
+{
+    const fe__terrain *t = g->terrain;
+    uint32_t carried = 0;
+    for (int32_t k = 0; k < g->count; ++k) {
+        const fe__raw_patch *other = g->patches + k;
+        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->normal, on_surface(other, 0)});
+    }
+    for (int32_t k = 0; k < t->known_count; ++k)
+        carried |= points_carried(g, patch, &(carrier){t->known[k], fe__narrow(fe__dsub(t->known_at[k], t->origin))});
+    return carried;
+}
+
+void fe__leave_carried(fe__gathering *g)
+{
+    uint32_t carried[FE__PATCHES + 1]; // of each patch, a bit for each point
+    int32_t count = 0;
+    if (g->count + g->terrain->known_count < 2 || !g->terrain->ground.mesh) return;
+    for (int32_t k = 0; k < g->count; ++k) carried[k] = points_carried_by_any(g, g->patches + k);
+    for (int32_t k = 0; k < g->count; ++k) {
+        fe__raw_patch *p = g->patches + k;
+        int32_t kept = 0;
+        for (int32_t i = 0; i < p->count; ++i)
+            if (!(carried[k] >> i & 1)) p->points[kept++] = p->points[i];
+        p->count = kept;
+        if (kept) g->patches[count++] = *p;
+    }
+    g->count = count;
 }
 
 // ---- patches -------------------------------------------------------------------------------------------------------

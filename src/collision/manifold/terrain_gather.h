@@ -37,6 +37,9 @@ static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *til
 int32_t fe__tile_feels_along(const fe__gathering *g, const fe__tile *tile, fe_vec3 m, const fe_vec3 *rim,
                              float separation);
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
+// Leaves out points at an edge of a mesh that bends down there, as the boxes of a closed one do, where the body is
+// carried over to the face beyond the edge by what it touches along that face's normal.
+void fe__leave_carried(fe__gathering *g);
 // Of a line that touches from one of two points to the other, these carry all: what lies between, where seams cut it,
 // comes and goes as the line rolls. Points deeper than the two by more than `tie` stay.
 void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie);
