@@ -40,8 +40,6 @@ typedef struct ROW {
     contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
-    wide mass_scale;                    // of the softness, see find_softness
-    wide ease;                          // of lent lanes, see stiffen
     // relax only
     wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
     wide total[POINTS];          // of the impulses of the substeps so far
@@ -49,8 +47,10 @@ typedef struct ROW {
     wide start_span[3];          // when the step began
     wide found_span[3];          // when the contact was found: for separations
     wide round_a, round_b;
-    wide still_a, still_b; // square of |sin(angle / 2)| up to which arms and inertia of a side stay as they are
-    wide follows;          // 1: they no longer do, see follow
+    // square of |sin(angle / 2)| up to which arms and inertia of a side stay as they are. Those of lent lanes do in any
+    // case: their mass scale, and by how much of its gap a loaded point closes, see stiffen
+    wide still_a, still_b;
+    wide follows; // 1: they no longer do, see follow
     wide static_friction, dynamic_friction;
     wide centre[3];       // of friction, from A's centre
     wide tangent_mass[3]; // inverse of the 2 x 2 matrix: 11 12 22
@@ -364,14 +364,17 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
                                wide *request, wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = row->mass_scale * k->bias_rate;
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed);
+    wide soft_scale = w_set(k->mass_scale);
+    if (lent) soft_scale = w_choose(lanes_of(row->lent), row->still_a, soft_scale);
+    wide rate = soft_scale * k->bias_rate;
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
-        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->ease * ahead, ahead);
+        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->still_b * ahead, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
@@ -379,7 +382,7 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
         if (lent) apart = w_and(apart, w_not(NAMED(eased)(row, i)));
-        scale[i] = w_choose(apart, one, row->mass_scale);
+        scale[i] = w_choose(apart, one, soft_scale);
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
         request[i] = scale[i] * q->impulse - q->mass * (scale[i] * vn + bias);
     }
