@@ -108,7 +108,7 @@ static board any_board(dice *d, int kind)
     board b;
     double inner, taper;
     do {
-        b.angle = uniform(d, 10, 40) * DEGREES, b.length = spread(d, 0.2, 3), b.wide = b.length * spread(d, 0.1, 1.5);
+        b.angle = uniform(d, 10, 40) * DEGREES, b.length = spread(d, 0.5, 3), b.wide = b.length * spread(d, 0.1, 1.5);
         double thick = fmax(0.01, b.length * spread(d, 0.01, 0.6 * tan(b.angle))), other = 1;
         if (kind == TAPERS) other = uniform(d, 0.2, 0.8);
         if (kind == WEDGES) other = 0;
