@@ -86,8 +86,9 @@ static void a_bit_of_a_velocity_is_named(void **state)
         fe_vec3 v, w;
         FE_TRUE(fe_body_get_linear_velocity(twin, bodies[i], &v) == FE_OK);
         if (v.z == 0.0f) continue;
-        w = v;
+        v = w = (fe_vec3){1.0f, 2.0f, 1e-6f}; // whose length, which is saved too, does not feel a bit of z
         w.z = nextafterf(v.z, 1e9f);
+        FE_TRUE(fe_body_set_linear_velocity(world, bodies[i], &v) == FE_OK);
         FE_TRUE(fe_body_set_linear_velocity(twin, bodies[i], &w) == FE_OK);
         fe_difference d = difference_of_worlds(world, twin);
         expect(d, "body", "velocity", bodies[i], 2);
