@@ -238,9 +238,9 @@ def test_the_ragdoll_stands() -> None:
 GOLDEN: Dict[str, int] = {
     "BallOnPlate": 0x55C0A4A697736B6C,
     "CartPole": 0xE02C34B0EBD55290,
-    "Push": 0x2c7e19237c4ad85eF807006459D752,
-    "Ragdoll": 0xC54B6B0B8550965C,
-    "Walker": 0x74a4dde4e74e0dfcBBEBA06DF6D80,
+    "Push": 0x2C7E19237C4AD85E,
+    "Ragdoll": 0x668FD7655AC3A06A,
+    "Walker": 0x74A4DDE4E74E0DFC,
 }
 
 
