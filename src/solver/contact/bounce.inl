@@ -100,7 +100,7 @@ FE_INLINE void NAMED(bounce_points)(ROW *row, pair *p, const wide *target, int k
         const contact_point *q = row->point + i;
         request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
     }
-    wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);
+    wide3 moment = NAMED(sweep_points)(row, request, 0, row->lent != 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
 

@@ -316,12 +316,12 @@ static __attribute__((noinline)) void NAMED(predict_mixed)(ROW *row, wide *reque
 // Runs the points against each other on their impulses. request[i] is the new impulse of point i before max(., 0); a
 // change d at point i lowers request[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about
 // A's centre.
-FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, wide *out_sum)
+FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, int lent, wide *out_sum)
 {
     wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
-    if (POINTS > 1 && row->lent)
+    if (POINTS > 1 && lent)
         NAMED(predict_mixed)(row, request, scale);
     else if (POINTS > 1)
         NAMED(predict_points)(row, request, scale);
@@ -388,24 +388,29 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
     }
 }
 
-// Seldom
-FE_SMALL static __attribute__((noinline)) void NAMED(lent_requests)(ROW *row, const fe__step_constants *c,
-                                                                    const pair *p, int kind, int soft, wide *request,
-                                                                    wide *scale)
-{
-    NAMED(requests)(row, c, p, kind, soft, 1, request, scale);
-}
-
-// Returns by how much the load changed
-FE_INLINE wide NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+FE_INLINE wide NAMED(push_points)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft, int lent)
 {
     wide request[POINTS], scale[POINTS], sum;
-    if (row->lent)
-        NAMED(lent_requests)(row, c, p, kind, soft, request, scale);
-    else
-        NAMED(requests)(row, c, p, kind, soft, 0, request, scale);
-    wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, &sum);
+    NAMED(requests)(row, c, p, kind, soft, lent, request, scale);
+    wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, lent, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    return sum;
+}
+
+FE_SMALL static __attribute__((noinline)) wide NAMED(push_lent_points)(ROW *row, const fe__step_constants *c, pair *p,
+                                                                       int kind, int soft)
+{
+    return NAMED(push_points)(row, c, p, kind, soft, 1);
+}
+
+// Returns by how much the load changed. Lent rows are few: they get a copy of the pair, as what another function writes
+// is no longer kept in registers
+FE_INLINE wide NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    if (!row->lent) return NAMED(push_points)(row, c, p, kind, soft, 0);
+    pair copy = *p;
+    wide sum = NAMED(push_lent_points)(row, c, &copy, kind, soft);
+    *p = copy;
     return sum;
 }
 
@@ -506,7 +511,11 @@ FE_INLINE wide NAMED(solve_friction)(ROW *row, pair *p, wide stretch, int kind)
     wide_mask bears = w_greater(load, w_set(0.0f)); // else none, however little was requested
     wide stick = row->static_friction * load, square = l1 * l1 + l2 * l2;
     wide_mask beyond = w_greater(square, stick * stick);
-    if (w_any(w_and(beyond, bears))) NAMED(slide)(row, v1, v2, stick, beyond, &l1, &l2);
+    if (w_any(w_and(beyond, bears))) {
+        wide s1 = l1, s2 = l2; // l1 and l2 stay in registers
+        NAMED(slide)(row, v1, v2, stick, beyond, &s1, &s2);
+        l1 = s1, l2 = s2;
+    }
     l1 = w_choose(bears, l1, w_set(0.0f));
     l2 = w_choose(bears, l2, w_set(0.0f));
     wide d1 = l1 - row->tangent_impulse[0], d2 = l2 - row->tangent_impulse[1];
