@@ -24,7 +24,8 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const row_contacts *r, wide4 sep
         to->impulse = impulses[i] * c->contact_warm_scale;
         row->total[i] = zero;
         wide weight =
-            w_choose(there, w_clamp(1.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
+            w_choose(there, w_clamp(1.0f - separations[i] * (TOUCHES / c->speculative), w_set(LEAST_WEIGHT), one),
+                     zero);
         sum = sum + weight;
         weighted = w_add_scaled(weighted, weight, arm);
         apart = apart + weight * separations[i];
