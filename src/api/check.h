@@ -131,7 +131,7 @@ fe_result fe__check_array(const char *function, const char *name, const char *co
 fe_result fe__check_stride(const char *function, const char *name, uint32_t *stride, uint32_t packed, uint32_t least);
 fe_result fe__check_reserved(const char *function, const void *words, int32_t count); // 32 bits each
 fe_result fe__check_material(const char *function, const fe_material *material);
-// Of a caller's array each is copied first: a stride of whole words may lay it where no fe_material may lie.
+// Each of a caller's array is copied first: a stride of whole words may lay it where no fe_material may lie.
 fe_result fe__check_materials(const char *function, const fe_material *materials, uint32_t stride, int32_t count);
 fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields);

@@ -44,10 +44,14 @@ static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, co
     fe__ground ground = fe__store_ground(p->world->store, &p->field->form);
     ground.near = p->near;
     return (fe__terrain){
-        ground,      fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-        around,      p->known,
-        p->known_at, p->known_count,
-        p->is_last,  p->fall};
+        .ground = ground,
+        .origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+        .around = around,
+        .known = p->known,
+        .known_at = p->known_at,
+        .known_count = p->known_count,
+        .is_last = p->is_last,
+        .fall = p->fall};
 }
 
 static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)

@@ -12,7 +12,7 @@ fe_result fe__shape_set_form(fe_world *world, int32_t shape, const fe__form *for
 void fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
 void fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32_t mask, int32_t group);
 int32_t fe__accept_pair(void *user, const fe_filter_pair *pair); // a pair filter that lets all collide
-void fe__world_judge_anew(fe_world *world);                      // the pairs that the pair filter refused are new again
+void fe__world_judge_anew(fe_world *world); // the pairs that the pair filter refused are new again
 // Does the pair filter judge its pairs? They are found anew
 void fe__shape_set_judged(fe_world *world, int32_t shape, int32_t judged);
 void fe__shape_set_one_way(fe_world *world, int32_t shape, int32_t one_way,

@@ -57,7 +57,7 @@ typedef struct fe__approach_hit {
 } fe__approach_hit;
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
-// Of two forms that touch at the start across the normal: returns a point of the touch on the frame's form.
+// Returns a point of the frame's form at which the two touch at the start, across the normal.
 fe_dvec3 fe__boxes_touching_point(const fe__approach *a, fe_dvec3 normal);
 
 // ---- hulls, and what has a rim (approach_curved.c) ------------------------------------------------------------------
@@ -90,13 +90,13 @@ typedef struct fe__core_overlap {
 } fe__core_overlap;
 
 double fe__stop_gap(const fe__mover *mover); // how far before the other form a sweep stops, m
-double fe__touch_of(const fe__mover *mover); // what overlaps or is apart by no more touches, m
+double fe__touch_of(const fe__mover *mover); // forms that overlap or are apart by no more touch, m
 fe__core_overlap fe__approach_overlap(const fe__approach *a);
 static inline int32_t fe__is_inside(const fe__approach *a, const fe__core_overlap *overlap)
 {
     return overlap->depth > a->touch;
 }
-// Of cores that touch: a point of the frame's at which they do
+// Returns a point of the frame's core at which the two cores touch.
 fe_dvec3 fe__touching_point(const fe__approach *a, const fe__core_overlap *touch);
 // For what is not inside at the start, see fe__is_inside. 1: they meet, and the stop is at t <= limit.
 int32_t fe__approach_sweep(const fe__approach *a, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit);

@@ -91,7 +91,7 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
     fe__core_overlap o = {.gap = {0}};
     if (fe__is_curved_pair(s)) {
         fe__curved_gap_of(s, s->position, &o.gap);
-        if (!(o.gap.distance > s->touch)) { // of points nearer than that only rounding knows the direction
+        if (!(o.gap.distance > s->touch)) { // rounding alone gives the direction between nearer points
             o.depth = fe__curved_depth(s, &o.way_out, &o.gap) + s->radius;
             return o;
         }

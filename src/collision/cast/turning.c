@@ -120,7 +120,7 @@ static int32_t look(const encounter *e, double t, double *distance, fe__approach
             return 1;
         }
     }
-    // of nearest points that all but meet only rounding knows the direction
+    // Rounding alone gives the direction between nearest points that all but meet.
     fe__approach there = *e->pair;
     there.position = now.position;
     fe__core_overlap overlap = fe__approach_overlap(&there);
@@ -171,7 +171,7 @@ int32_t fe__turning_stays_beyond(const fe__turning *way, fe__approach *pair, fe_
     return 0;
 }
 
-// What touches at *t, across here's normal: does it come nearer by half a touch before `until`? Else *t is when it is
+// Does what touches at *t, across here's normal, come nearer by half a touch before `until`? Else *t is when it is
 // well apart, or `until`. The planes across the normal hold apart what slides along them; where other features come to
 // face each other, those across the nearest points' direction do.
 static int32_t comes_nearer(const encounter *e, fe__approach_hit here, double until, double *t)

@@ -21,7 +21,7 @@ typedef struct fe__crossing {
     const fe__surroundings *around;
     const fe__neighbour *own; // the touched surface, when it may go on elsewhere; or NULL
     float fall;               // m, as in fe__terrain
-    fe_vec3 edge, out;        // of `own` only what lies farther along `out` than `edge` counts; (0, 0, 0): all of it
+    fe_vec3 edge, out;        // `own` counts farther along `out` than `edge` alone; (0, 0, 0): all of it
 } fe__crossing;
 
 // Of the face through q with the unit normal f, the body touches the rim, `separation` apart along another direction:

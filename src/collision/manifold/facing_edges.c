@@ -73,7 +73,8 @@ static inline lanes wide_cross(const lanes *a, const lanes *b)
     return (lanes){a->y * b->z - a->z * b->y, a->z * b->x - a->x * b->z, a->x * b->y - a->y * b->x};
 }
 
-// Of four edges from i on those that lie across n but for 5 degrees, and whose cone of normals holds it: a bit for each
+// Sets a bit for each of the four edges from i on that lies across n but for 5 degrees, and whose cone of normals holds
+// n.
 static uint32_t edges_across(const fe__hull *hull, int32_t i, const lanes *n)
 {
     lanes along = lanes_at(&hull->vectors, i), left = lanes_at(&hull->left, i), right = lanes_at(&hull->right, i),
@@ -137,7 +138,7 @@ static void round_off(facing *f)
     f->inwards = k / twice, f->depths = k * longer - (k - 1.0f);
 }
 
-// What the cones have in common; 0: nothing
+// Finds what the cones have in common; 0: they have nothing.
 static int32_t look_across(const edge *a, const edge *b, facing *f)
 {
     f->half = fe__length(a->along), f->origin = a->middle;

@@ -16,7 +16,7 @@ typedef struct fe__least_overlap {
     float separation; // m
 } fe__least_overlap;
 
-// Of hulls that no two faces meet of: the points of two edges that run side by side but for 5 degrees, where these are
+// Gives the points of two edges that run side by side but for 5 degrees, where no two faces meet and these edges are
 // nearest to each other of all that the hulls have. Returns 0 and adds nothing when something else is. `name`: of the
 // pair of edges, for an axis of the caller's; ids have the highest bit.
 int32_t fe__touch_facing_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a,

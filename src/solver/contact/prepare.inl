@@ -159,9 +159,9 @@ static __attribute__((noinline)) void NAMED(stiffen)(ROW *row, const pair *p, co
     row->lent = bits_of(lent);
     wide share = NAMED(mass_of_all)(row) * response;
     wide part = mass * response + w_max(1.0f - share * (1.0f / LEAST_FOLLOWED), w_set(0.0f));
-    row->still_b = w_choose(lent, w_min(2.0f * share, w_set(1.0f)), row->still_b);
+    row->lent_closing = w_choose(lent, w_min(2.0f * share, w_set(1.0f)), row->still_b);
     wide scale = 1.0f / (1.0f + part * (k->impulse_scale / k->mass_scale));
-    row->still_a = w_choose(lent, w_max(scale, w_set(k->mass_scale)), row->still_a);
+    row->lent_scale = w_choose(lent, w_max(scale, w_set(k->mass_scale)), row->still_a);
 }
 
 FE_INLINE void NAMED(find_softness)(ROW *row, const pair *p, const fe__step_constants *c, int kind)

@@ -47,9 +47,14 @@ typedef struct ROW {
     wide start_span[3];          // when the step began
     wide found_span[3];          // when the contact was found: for separations
     wide round_a, round_b;
-    // square of |sin(angle / 2)| up to which arms and inertia of a side stay as they are. Those of lent lanes do in any
-    // case: their mass scale, and by how much of its gap a loaded point closes, see stiffen
-    wide still_a, still_b;
+    // Square of |sin(angle / 2)| up to which arms and inertia of a side stay as they are. Those of lent lanes do in any
+    // case: they have their mass scale there, and the share of its gap by which a loaded point closes, see stiffen.
+    union {
+        wide still_a, lent_scale;
+    };
+    union {
+        wide still_b, lent_closing;
+    };
     wide follows; // 1: they no longer do, see follow
     wide static_friction, dynamic_friction;
     wide centre[3];       // of friction, from A's centre
@@ -366,7 +371,7 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
     wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed);
     wide soft_scale = w_set(k->mass_scale);
-    if (lent) soft_scale = w_choose(lanes_of(row->lent), row->still_a, soft_scale);
+    if (lent) soft_scale = w_choose(lanes_of(row->lent), row->lent_scale, soft_scale);
     wide rate = soft_scale * k->bias_rate;
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
@@ -374,7 +379,7 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
-        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->still_b * ahead, ahead);
+        if (lent) ahead = w_choose(NAMED(eased)(row, i), row->lent_closing * ahead, ahead);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
