@@ -79,6 +79,7 @@ static void forget_contents(fe_recorder *r, int64_t step)
 {
     int32_t old = 0;
     while (old < r->content_count && r->contents[old].named < step) ++old;
+    if (old == 0) return;
     r->content_count -= old;
     memmove(r->contents, r->contents + old, (size_t)r->content_count * sizeof *r->contents);
 }
