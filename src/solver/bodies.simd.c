@@ -302,13 +302,13 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
     for (int32_t i = first; i < first + count; i += FE_W) {
         wide4 p, q;
         load_line(s->motion, i, &p, &q);
-        wide3 v = within(w_xyz(load_low(s->velocity, i)), c->max_speed),
-              half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
+        wide3 half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
         if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         u = w_flush3(u, w_set(FE__LEAST_SPEED));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);
+        wide3 v = within(w_xyz(load_low(s->velocity, i)), c->max_speed);
         store_line(s->motion, i, w_with(w_add_scaled(w_xyz(p), w_set(c->h), v), p.w), w_with(w_scale(k, u), k * a));
     }
 }

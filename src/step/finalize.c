@@ -160,12 +160,17 @@ static void take_flushed(float *out, const float *in)
     *(quad *)out = a;
 }
 
-// Constraints change velocities after the last substep's limit: this is the limit at the end of the step.
-static void limit_speed(float *v, float most)
+// Constraints change velocities after the last substep's limit: this is the limit at the end of the step. The speed that
+// is noted is no less than |v|, but for roundings.
+static void limit_speed(fe__body *body, fe__odometer *odometer, float most)
 {
+    const float roundings = 1e-6f;
+    float *v = body->velocity;
+    if (body->speed < (1.0f - roundings) * most) return;
     if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > most * most)) return;
     double x = (double)v[0], y = (double)v[1], z = (double)v[2], k = (double)most / sqrt(x * x + y * y + z * z);
     v[0] = (float)(k * x), v[1] = (float)(k * y), v[2] = (float)(k * z);
+    fe__note_speed(body, odometer);
 }
 
 // of joined bodies on which a gyroscopic torque acts
@@ -201,12 +206,12 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             continue;
         }
         take_flushed(body->velocity, velocity->v);
-        limit_speed(body->velocity, w->tuning.max_linear_speed);
         take_flushed(body->spin, velocity->w);
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, motion, body);
         int32_t shifted = shift(body, motion->shift), turned = turn(body, motion->rotation);
         fe__note_speed(body, odometer);
+        limit_speed(body, odometer, w->tuning.max_linear_speed);
         swiftest = fe__maxf(swiftest, fe__swiftness_of(body));
         tick_sleep_timer(w, body, w->drifts + index, motion, step->dt);
         if (turned) fe__odometer_turn(odometer, length_of(motion->rotation));

@@ -192,14 +192,24 @@ static inline wide4 load_points(const fe__manifold *found)
 
 static inline float sum_of(wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
+static inline wide_int first_lanes(int32_t count) { return (wide_int){0, 1, 2, 3} < count; }
+
+// What features bore that are gone is borne by those that are new, in equal parts
+static wide hand_on(wide old, wide impulse, wide_int fresh, int old_count)
+{
+    int32_t count = -(fresh[0] + fresh[1] + fresh[2] + fresh[3]);
+    float left = fe__maxf(sum_of(keep(first_lanes(old_count), old)) - sum_of(impulse), 0.0f);
+    return count > 0 ? w_choose(fresh, w_set(left / (float)count), impulse) : impulse;
+}
+
 // Impulses stay with the features that meet, of one point or more. All are compared with all: which are the same no
-// branch can guess. `hands_on`: what features bore that are gone is borne by those that are new, in equal parts
+// branch can guess
 static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found,
                            int32_t hands_on)
 {
     const fe__manifold_point *p = found->points;
     int32_t last = found->count - 1;
-    wide_int there = (wide_int){0, 1, 2, 3} < found->count, before, now, known = {0, 0, 0, 0};
+    wide_int there = first_lanes(found->count), before, now, known = {0, 0, 0, 0};
     memcpy(&before, features->ids, sizeof before);
     for (int32_t i = 0; i < FE_W; ++i) now[i] = (int32_t)p[fe__mini(i, last)].id;
     wide old = *(const quad *)q->normal_impulse, impulse = w_set(0.0f);
@@ -209,12 +219,7 @@ static void match_impulses(fe__points *q, fe__features *features, int old_count,
         known |= same;
     }
     impulse = keep(there, impulse);
-    if (hands_on) {
-        wide_int fresh = there & ~known;
-        int32_t count = -(fresh[0] + fresh[1] + fresh[2] + fresh[3]);
-        float left = fe__maxf(sum_of(keep((wide_int){0, 1, 2, 3} < old_count, old)) - sum_of(impulse), 0.0f);
-        if (count > 0) impulse = w_choose(fresh, w_set(left / (float)count), impulse);
-    }
+    if (hands_on) impulse = hand_on(old, impulse, there & ~known, old_count);
     *(quad *)q->normal_impulse = impulse;
     now = (now & there) | (before & ~there);
     memcpy(features->ids, &now, sizeof now);
@@ -434,10 +439,18 @@ static int32_t hands_on(const fe__contact *m, const fe__view *v, const fe__manif
     return fe__dot(fe__quad_vector(m->normal), solvers_normal(m, v, found->normal)) > same_way;
 }
 
-// 1: it is apart, and how is told. 0: it has points, which are written unless it was not to. The flags of the pair are
-// read by others meanwhile
-static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points, fe__apart *apart,
-                       int32_t *out_changes_sides)
+static int32_t tell_apart(fe_world *world, int32_t pair, const fe__apart *apart, fe__apart *out)
+{
+    if (out)
+        *out = *apart;
+    else
+        fe__write_apart(world, pair, apart);
+    return 1;
+}
+
+// 1: it is apart, and how is told. 0: it has points. `apart`: NULL: the pair is written, of which the flags are read by
+// others meanwhile
+static int32_t collide(const fe__step *step, int32_t pair, fe__apart *apart, int32_t *out_changes_sides)
 {
     fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
@@ -462,23 +475,21 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
     float axis_separation = found.axis_separation;
     sides sides = p->flags & FE__PAIR_DENIED ? HOLDS : sides_of(world, pair, passing, &v, &found);
     *out_changes_sides = passed != (sides == PASSES);
-    if (p->flags & FE__PAIR_DENIED || sides != HOLDS) {
-        *apart = (fe__apart){.axis_separation = axis_separation};
-        return 1;
-    }
+    if (p->flags & FE__PAIR_DENIED || sides != HOLDS)
+        return tell_apart(world, pair, &(fe__apart){.axis_separation = axis_separation}, apart);
 
     int32_t near = found.count && deepest_of(&found) <= margin;
-    if (near && !writes_points) return 0;
+    if (near && apart) return 0;
     if (may_touch_from_afar(step, p, m, &v, &found)) {
         int32_t fast = may_outrun(a, x, y, reach);
-        if (fast && !writes_points) return 0;
+        if (fast && apart) return 0;
         ahead = (fast ? look_far_ahead : look_ahead)(step, m, &v, &at, &found);
     }
-    if (ahead && !writes_points) return 0;
+    if (ahead && apart) return 0;
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
-        *apart = (fe__apart){axis_separation, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal)};
-        return 1;
+        const fe__apart now = {axis_separation, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal)};
+        return tell_apart(world, pair, &now, apart);
     }
     p->axis_separation = axis_separation;
     p->axis = axis;
@@ -495,8 +506,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
 int32_t fe__collide_pair(const fe__step *step, int32_t pair)
 {
     int32_t changes_sides;
-    fe__apart apart;
-    if (collide(step, pair, 1, &apart, &changes_sides)) fe__write_apart(step->world, pair, &apart);
+    collide(step, pair, NULL, &changes_sides);
     return changes_sides;
 }
 
@@ -506,5 +516,5 @@ int32_t fe__collide_apart(const fe__step *step, int32_t pair, fe__apart *out_apa
     const fe__shape *shapes = step->world->shapes;
     int32_t changes_sides; // of one-way shapes
     if ((shapes[p->shape_a].flags | shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
-    return collide(step, pair, 0, out_apart, &changes_sides);
+    return collide(step, pair, out_apart, &changes_sides);
 }

@@ -32,12 +32,15 @@ static int32_t ground_shuts(const seam *s, const fe__neighbour *n, fe_vec3 q, fe
     return fe__ground_rises_at(&n->ground, &rim, fe__widen(fe__mul_transposed(&n->axes, m)), (double)FE__FLUSH);
 }
 
-// Is the body carried over to another face of the solid from across a gap?
+// Is the body carried over to another face of the solid from across a gap? Not where its middle lies too deep already,
+// as it does below most faces
 static int32_t gap_shuts(const seam *s, fe_vec3 q, fe_vec3 m, float separation)
 {
     const fe__crossing crossing = {.body = s->other, .around = &s->around, .fall = s->fall};
     const float beside = 0.01f; // cosine
-    for (int32_t face = 0; face < fe__solid_face_count(&s->solid); ++face) {
+    const float least = s->other.form->radius - fe__most_below(&crossing);
+    fe_vec3 middle = fe__mul_transposed(&s->solid.axes, fe__sub(fe__solid_middle(&s->other), s->solid.centre));
+    for (int32_t face = -1; (face = fe__solid_face_below(&s->solid, face + 1, middle, least)) >= 0;) {
         fe_vec3 f = fe__solid_normal(&s->solid, face);
         if (fe__dot(f, m) < -beside || fe__is_along_face(m, f)) continue;
         fe_vec3 on_face = fe__add_scaled(q, fe__solid_height(&s->solid, face) - fe__dot(f, q), f);

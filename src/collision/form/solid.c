@@ -34,6 +34,22 @@ float fe__solid_height(const fe__solid *s, int32_t face)
     return fe__dot(fe__solid_normal(s, face), s->centre) + local_height(s->form, face);
 }
 
+// The origin of a hull may lie outside of it, its centre of mass may not
+fe_vec3 fe__solid_middle(const fe__solid *s)
+{
+    const fe__form *form = s->form;
+    if (!fe__form_is_hull(form)) return s->centre;
+    fe_vec3 middle = fe__add_scaled(form->offset, form->scale, fe__narrow(form->hull->mass.centre));
+    return fe__add(s->centre, fe__mul(&s->axes, middle));
+}
+
+int32_t fe__solid_face_below(const fe__solid *s, int32_t face, fe_vec3 p, float least)
+{
+    for (int32_t i = face; i < fe__solid_face_count(s); ++i)
+        if (fe__dot(local_normal(s->form, i), p) - local_height(s->form, i) >= least) return i;
+    return -1;
+}
+
 static int32_t holds(const fe__form *form, fe_vec3 p)
 {
     if (!fe__form_is_hull(form))

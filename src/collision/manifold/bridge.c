@@ -53,11 +53,15 @@ static int32_t is_held_beyond(const fe__crossing *c, fe_vec3 p, fe_vec3 f, fe_ve
            goes_on_at(c, fe__sub(beyond, aside), f);
 }
 
+float fe__most_below(const fe__crossing *c)
+{
+    return c->fall + fe__minf(BELOW, BELOW_SHARE * fe__form_thickness(c->body.form));
+}
+
 int32_t fe__is_carried_over(const fe__crossing *c, fe_vec3 q, fe_vec3 f, const fe_vec3 *rim, float separation)
 {
     fe__face face;
-    float height[FE_FACE_VERTICES], below = c->fall + fe__minf(BELOW, BELOW_SHARE * fe__form_thickness(c->body.form)),
-                                    low = find_feature(c, q, f, &face, height);
+    float height[FE_FACE_VERTICES], below = fe__most_below(c), low = find_feature(c, q, f, &face, height);
     if (low < -below) return 0;
     fe_vec3 sum = {0.0f, 0.0f, 0.0f};
     int32_t count = 0;

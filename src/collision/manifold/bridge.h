@@ -24,6 +24,8 @@ typedef struct fe__crossing {
     fe_vec3 edge, out;        // `own` counts farther along `out` than `edge` alone; (0, 0, 0): all of it
 } fe__crossing;
 
+// How far below a face the lowest point of a body may lie that is carried over to it, m. What lies deeper met a step
+float fe__most_below(const fe__crossing *crossing);
 // Of the face through q with the unit normal f, the body touches the rim, `separation` apart along another direction:
 // is it carried over to the face by something level with it? `rim`: where it touches, or NULL: not known. All in the
 // common frame

@@ -3,7 +3,7 @@
 // Vertex i is at + along x, y, z where bit 0, 1, 2 of i is set. Faces: -x, +x, -y, +y, -z, +z.
 #include "collision/manifold/hull_box.h"
 
-#include <string.h>
+#include "core/lanes.h"
 
 enum { VERTICES = 8, FACES = 6, EDGES = 12 };
 
@@ -12,10 +12,18 @@ static const uint8_t corners[2 * EDGES] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2
 static const fe__hull_face faces[FACES] = {{0, 4, 0, 0},  {4, 4, 0, 0},  {8, 4, 0, 0},
                                            {12, 4, 0, 0}, {16, 4, 0, 0}, {20, 4, 0, 0}};
 
-// from the vertex with the lower number: its ends, and the faces on its left and right
-static const uint8_t edges[EDGES][4] = {{0, 4, 0, 2}, {4, 6, 0, 5}, {2, 6, 3, 0}, {0, 2, 4, 0},
-                                        {1, 3, 1, 4}, {3, 7, 1, 3}, {5, 7, 5, 1}, {1, 5, 2, 1},
-                                        {0, 1, 2, 4}, {4, 5, 5, 2}, {6, 7, 3, 5}, {2, 3, 4, 3}};
+// In half widths: the vertices; of each edge the vertex with the lower number, and the way from there to the other
+_Alignas(64) static const float vertices[3][FE__HULL_LANES] = {
+    {-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+    {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+    {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1}};
+_Alignas(64) static const float tails[3][FE__HULL_LANES] = {
+    {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+    {-1, -1, 1, -1, -1, 1, -1, -1, -1, -1, 1, 1, -1, -1, -1, -1},
+    {-1, 1, -1, -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1}};
+_Alignas(64) static const float vectors[3][FE__HULL_LANES] = {{0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 2, 2},
+                                                              {0, 2, 0, 2, 2, 0, 2},
+                                                              {2, 0, 2, 0, 0, 2, 0, 2, 0, 0, 0, 0, 2, 2, 2, 2}};
 
 // unit normals, of the faces, and of those left and right of each edge; lanes past the count repeat the first
 _Alignas(64) static const
@@ -29,21 +37,24 @@ _Alignas(64) static const float right[3][FE__HULL_LANES] = {{0, 0, -1, -1, 0, 0,
                                                             {-1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1, -1, -1, -1},
                                                             {0, 1, 0, 0, -1, 0, 0, 0, -1, 0, 1, 0}};
 
-static float along(float half, int32_t vertex, int32_t axis) { return vertex >> axis & 1 ? half : -half; }
+static void scale(float half, const float from[FE__HULL_LANES], float to[FE__HULL_LANES])
+{
+    for (int32_t i = 0; i < FE__HULL_LANES; i += 4) *(fe__quad *)(to + i) = half * *(const fe__quad *)(from + i);
+}
 
 void fe__box_as_hull(const fe__form *box, fe__box_hull *out)
 {
     const float half[3] = {box->half.x, box->half.y, box->half.z};
     float least = fe__minf(half[0], fe__minf(half[1], half[2])), most = fe__maxf(half[0], fe__maxf(half[1], half[2]));
     for (int32_t k = 0; k < 3; ++k) {
-        for (int32_t i = 0; i < FE__HULL_LANES; ++i) {
-            const uint8_t *edge = edges[i < EDGES ? i : 0];
-            out->vertices[k][i] = along(half[k], i < VERTICES ? i : 0, k);
-            out->tails[k][i] = along(half[k], edge[0], k);
-            out->vectors[k][i] = along(half[k], edge[1], k) - out->tails[k][i];
-        }
+        scale(half[k], vertices[k], out->vertices[k]);
+        scale(half[k], tails[k], out->tails[k]);
+        scale(half[k], vectors[k], out->vectors[k]);
     }
-    for (int32_t i = 0; i < FE__HULL_LANES; ++i) out->distances[i] = half[i < FACES ? i / 2 : 0];
+    const fe__quad x_y = {half[0], half[0], half[1], half[1]}, z = {half[2], half[2], half[0], half[0]},
+                   x = fe__quad_set(half[0]); // lanes past the count repeat the first
+    fe__quad *distances = (fe__quad *)out->distances;
+    distances[0] = x_y, distances[1] = z, distances[2] = distances[3] = x;
     out->hull = (fe__hull){.vertex_count = VERTICES,
                            .face_count = FACES,
                            .edge_count = EDGES,

@@ -6,7 +6,8 @@
 
 typedef struct fe__box_hull {
     fe__hull hull;
-    float vertices[3][FE__HULL_LANES], distances[FE__HULL_LANES], tails[3][FE__HULL_LANES], vectors[3][FE__HULL_LANES];
+    _Alignas(16) float vertices[3][FE__HULL_LANES];
+    float distances[FE__HULL_LANES], tails[3][FE__HULL_LANES], vectors[3][FE__HULL_LANES];
 } fe__box_hull;
 
 // Enough of a hull for hull_axis.h and hull_hull.c: it has no half-edges, spokes and directions.
