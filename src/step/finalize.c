@@ -160,8 +160,8 @@ static void take_flushed(float *out, const float *in)
     *(quad *)out = a;
 }
 
-// Constraints change velocities after the last substep's limit: this is the limit at the end of the step. The speed that
-// is noted is no less than |v|, but for roundings.
+// Constraints change velocities after the last substep's limit: this is the limit at the end of the step. The speed
+// that is noted is no less than |v|, but for roundings.
 static void limit_speed(fe__body *body, fe__odometer *odometer, float most)
 {
     const float roundings = 1e-6f;

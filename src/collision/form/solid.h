@@ -26,7 +26,7 @@ static inline int32_t fe__form_is_solid(const fe__form *form)
 int32_t fe__solid_face_count(const fe__solid *solid);
 fe_vec3 fe__solid_normal(const fe__solid *solid, int32_t face); // unit
 float fe__solid_height(const fe__solid *solid, int32_t face);   // of its plane over the common origin, m
-fe_vec3 fe__solid_middle(const fe__solid *solid); // a point within any form, in the common frame
+fe_vec3 fe__solid_middle(const fe__solid *solid);               // a point within any form, in the common frame
 // Of the faces from number `face` on the first that p lies over by at least `least`, m; -1: none. p is in the frame of
 // the solid's form
 int32_t fe__solid_face_below(const fe__solid *solid, int32_t face, fe_vec3 p, float least);

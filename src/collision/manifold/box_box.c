@@ -327,11 +327,11 @@ static int32_t touch_facing_edges(const box_pair *q, const fe__form *a, const fe
                                   int32_t axis, float separation, float margin, fe__manifold *manifold)
 {
     if (!may_have_facing_edges(q, axis)) return 0;
-    fe__box_hull of_a, of_b;
-    fe__box_as_hull(a, &of_a), fe__box_as_hull(b, &of_b);
+    const fe__scaled_hull of_a = {&fe__unit_box, a->half, fe__form_thickness(a)},
+                          of_b = {&fe__unit_box, b->half, fe__form_thickness(b)};
     fe__least_overlap least = {normal_along(q, axis), separation};
     int32_t name;
-    if (!fe__touch_facing_edges(&of_a.hull, &of_b.hull, b_in_a, &least, margin, manifold, &name)) return 0;
+    if (!fe__touch_facing_edges(&of_a, &of_b, b_in_a, &least, margin, manifold, &name)) return 0;
     manifold->axis = FACING_EDGES + name;
     return 1;
 }

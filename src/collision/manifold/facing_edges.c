@@ -73,12 +73,15 @@ static inline lanes wide_cross(const lanes *a, const lanes *b)
     return (lanes){a->y * b->z - a->z * b->y, a->z * b->x - a->x * b->z, a->x * b->y - a->y * b->x};
 }
 
+static inline lanes scaled(lanes a, fe_vec3 scale) { return (lanes){a.x * scale.x, a.y * scale.y, a.z * scale.z}; }
+
 // Sets a bit for each of the four edges from i on that lies across n but for 5 degrees, and whose cone of normals holds
 // n.
-static uint32_t edges_across(const fe__hull *hull, int32_t i, const lanes *n)
+static uint32_t edges_across(const fe__scaled_hull *of, int32_t i, const lanes *n)
 {
-    lanes along = lanes_at(&hull->vectors, i), left = lanes_at(&hull->left, i), right = lanes_at(&hull->right, i),
-          turn = wide_cross(n, &along);
+    const fe__hull *hull = of->hull;
+    lanes along = scaled(lanes_at(&hull->vectors, i), of->scale), left = lanes_at(&hull->left, i),
+          right = lanes_at(&hull->right, i), turn = wide_cross(n, &along);
     wide rise = wide_dot(&along, n), most = FE__LIES_ALONG * FE__LIES_ALONG * wide_dot(&along, &along),
          past_left = wide_dot(&turn, &left), past_right = wide_dot(&turn, &right);
     // left x n . along >= 0 and n x right . along >= 0, but for as much
@@ -88,28 +91,31 @@ static uint32_t edges_across(const fe__hull *hull, int32_t i, const lanes *n)
     return w_bits(in) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
 }
 
-static int32_t find_edges(const fe__hull *hull, fe_vec3 n, int16_t *out)
+static int32_t find_edges(const fe__scaled_hull *of, fe_vec3 n, int16_t *out)
 {
+    const fe__hull *hull = of->hull;
     lanes normal = {w_set(n.x), w_set(n.y), w_set(n.z)};
     int32_t count = 0;
     for (int32_t i = 0; i < hull->edge_count; i += FE_W)
-        for (uint32_t left = edges_across(hull, i, &normal); left && count < EDGES_MOST; left &= left - 1)
+        for (uint32_t left = edges_across(of, i, &normal); left && count < EDGES_MOST; left &= left - 1)
             out[count++] = (int16_t)(i + __builtin_ctz(left));
     return count;
 }
 
-static edge edge_of_a(const fe__hull *hull, int32_t i)
+static fe_vec3 times(fe_vec3 a, fe_vec3 b) { return fe__vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
+
+static edge edge_of_a(const fe__scaled_hull *of, int32_t i)
 {
-    fe_vec3 half = fe__scale(0.5f, fe__hull_lane(&hull->vectors, i));
-    return (edge){fe__add(fe__hull_lane(&hull->tails, i), half), half, fe__hull_lane(&hull->left, i),
+    const fe__hull *hull = of->hull;
+    fe_vec3 half = fe__scale(0.5f, times(of->scale, fe__hull_lane(&hull->vectors, i)));
+    return (edge){fe__add(times(of->scale, fe__hull_lane(&hull->tails, i)), half), half, fe__hull_lane(&hull->left, i),
                   fe__hull_lane(&hull->right, i)};
 }
 
 // with its normals turned round, so that both cones are of normals from A to B, and running as A's edge does
-static edge edge_of_b(const fe__hull *hull, int32_t i, const fe__relative *b_in_a, fe_vec3 along_a)
+static edge edge_of_b(edge e, const fe__relative *b_in_a, fe_vec3 along_a)
 {
     const fe__mat3 *r = &b_in_a->rotation;
-    edge e = edge_of_a(hull, i);
     e.middle = fe__add(b_in_a->position, fe__mul(r, e.middle)), e.along = fe__mul(r, e.along);
     fe_vec3 left = fe__neg(fe__mul(r, e.first)), right = fe__neg(fe__mul(r, e.last));
     if (fe__dot(e.along, along_a) >= 0.0f) return (edge){e.middle, e.along, left, right};
@@ -225,7 +231,7 @@ typedef struct core {
     float r, least; // m
 } core;
 
-static core core_of(const fe__hull *a, const fe__hull *b, float separation)
+static core core_of(const fe__scaled_hull *a, const fe__scaled_hull *b, float separation)
 {
     float smallest = fe__minf(a->inner_radius, b->inner_radius),
           least = fe__minf(FE__FACING_DEPTH, CORE_LEAST_SHARE * smallest);
@@ -251,21 +257,29 @@ static int32_t touch(const edge *a, const edge *b, const core *c, float separati
     return manifold->count > 0;
 }
 
-int32_t fe__touch_facing_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a,
+// Do they run side by side but for 5 degrees, and near enough to each other to touch?
+static int32_t run_beside(const edge *a, const edge *b, float reach)
+{
+    float aa = fe__dot(a->along, a->along), bb = fe__dot(b->along, b->along), ab = fe__dot(a->along, b->along);
+    if (ab * ab <= FE_FACE_COS * FE_FACE_COS * aa * bb) return 0;
+    fe_vec3 d = fe__sub(b->middle, a->middle);
+    float along = fe__dot(d, a->along), most = reach + FE__LIES_ALONG * sqrtf(bb);
+    return fe__dot(d, d) * aa - along * along <= most * most * aa;
+}
+
+int32_t fe__touch_facing_edges(const fe__scaled_hull *a, const fe__scaled_hull *b, const fe__relative *b_in_a,
                                const fe__least_overlap *least, float margin, fe__manifold *manifold, int32_t *name)
 {
     int16_t of_a[EDGES_MOST], of_b[EDGES_MOST];
     int32_t count_b = find_edges(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, least->normal)), of_b),
             count_a = count_b > 0 ? find_edges(a, least->normal, of_a) : 0;
     core c = core_of(a, b, least->separation);
+    float reach = FE__FACING_REACH * fe__maxf(fe__absf(least->separation), FE__FACING_DEPTH);
     for (int32_t i = 0; i < count_a; ++i) {
         edge own = edge_of_a(a, of_a[i]);
         for (int32_t j = 0; j < count_b; ++j) {
-            edge other = edge_of_b(b, of_b[j], b_in_a, own.along);
-            float along = fe__dot(own.along, other.along);
-            if (along * along <=
-                FE_FACE_COS * FE_FACE_COS * fe__dot(own.along, own.along) * fe__dot(other.along, other.along))
-                continue;
+            edge other = edge_of_b(edge_of_a(b, of_b[j]), b_in_a, own.along);
+            if (!run_beside(&own, &other, reach)) continue;
             *name = of_a[i] << 10 | of_b[j];
             if (!touch(&own, &other, &c, least->separation, margin, 1u << 31 | (uint32_t)*name, manifold)) continue;
             manifold->round = 1;

@@ -13,14 +13,14 @@ static const fe__hull_face faces[FACES] = {{0, 4, 0, 0},  {4, 4, 0, 0},  {8, 4, 
                                            {12, 4, 0, 0}, {16, 4, 0, 0}, {20, 4, 0, 0}};
 
 // In half widths: the vertices; of each edge the vertex with the lower number, and the way from there to the other
-_Alignas(64) static const float vertices[3][FE__HULL_LANES] = {
-    {-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
-    {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
-    {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1}};
-_Alignas(64) static const float tails[3][FE__HULL_LANES] = {
-    {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
-    {-1, -1, 1, -1, -1, 1, -1, -1, -1, -1, 1, 1, -1, -1, -1, -1},
-    {-1, 1, -1, -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1}};
+_Alignas(64) static const
+    float vertices[3][FE__HULL_LANES] = {{-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                         {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                         {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1}};
+_Alignas(64) static const
+    float tails[3][FE__HULL_LANES] = {{-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                      {-1, -1, 1, -1, -1, 1, -1, -1, -1, -1, 1, 1, -1, -1, -1, -1},
+                                      {-1, 1, -1, -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1}};
 _Alignas(64) static const float vectors[3][FE__HULL_LANES] = {{0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 2, 2},
                                                               {0, 2, 0, 2, 2, 0, 2},
                                                               {2, 0, 2, 0, 0, 2, 0, 2, 0, 0, 0, 0, 2, 2, 2, 2}};
@@ -36,6 +36,21 @@ _Alignas(64) static const float left[3][FE__HULL_LANES] = {{-1, -1, 0, 0, 1, 1, 
 _Alignas(64) static const float right[3][FE__HULL_LANES] = {{0, 0, -1, -1, 0, 0, 1, 1, 0, 0, 0, 0},
                                                             {-1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1, -1, -1, -1},
                                                             {0, 1, 0, 0, -1, 0, 0, 0, -1, 0, 1, 0}};
+
+const fe__hull fe__unit_box = {.vertex_count = VERTICES,
+                               .face_count = FACES,
+                               .edge_count = EDGES,
+                               .thickness = 2.0f,
+                               .inner_radius = 1.0f,
+                               .extent = 2.0f,
+                               .vertices = {vertices[0], vertices[1], vertices[2]},
+                               .normals = {normals[0], normals[1], normals[2]},
+                               .tails = {tails[0], tails[1], tails[2]},
+                               .vectors = {vectors[0], vectors[1], vectors[2]},
+                               .left = {left[0], left[1], left[2]},
+                               .right = {right[0], right[1], right[2]},
+                               .faces = faces,
+                               .corners = corners};
 
 static void scale(float half, const float from[FE__HULL_LANES], float to[FE__HULL_LANES])
 {

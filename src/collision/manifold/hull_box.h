@@ -10,6 +10,8 @@ typedef struct fe__box_hull {
     float distances[FE__HULL_LANES], tails[3][FE__HULL_LANES], vectors[3][FE__HULL_LANES];
 } fe__box_hull;
 
+// The box of half widths 1: its edges and its faces' normals alone
+extern const fe__hull fe__unit_box;
 // Enough of a hull for hull_axis.h and hull_hull.c: it has no half-edges, spokes and directions.
 void fe__box_as_hull(const fe__form *box, fe__box_hull *out);
 

@@ -211,7 +211,9 @@ static int32_t touch_facing_edges(const hull_pair *q, fe_vec3 normal, float sepa
 {
     fe__least_overlap least = {normal, separation};
     int32_t name;
-    if (!fe__touch_facing_edges(q->a, q->b, &q->b_in_a, &least, margin, manifold, &name)) return 0;
+    const fe_vec3 as_it_is = {1.0f, 1.0f, 1.0f};
+    const fe__scaled_hull a = {q->a, as_it_is, q->a->inner_radius}, b = {q->b, as_it_is, q->b->inner_radius};
+    if (!fe__touch_facing_edges(&a, &b, &q->b_in_a, &least, margin, manifold, &name)) return 0;
     manifold->axis = FACING_EDGES << 20 | name;
     return 1;
 }

@@ -168,9 +168,9 @@ FE_INLINE row_contacts name_contacts(const fe__records *of, const fe__lane *lane
 FE_INLINE size_t point_offset(int i) { return offsetof(fe__points, point) + (size_t)i * sizeof(fe__contact_arm); }
 #define POINTS_QUAD(field) w_gather_from(r->points, offsetof(fe__points, field))
 
-// A point counts for the friction centre by how much nearer it is than a quarter of the speculative distance: friction
-// acts where the bodies touch, not at a corner that stands off. Those farther off still count a little: the weights
-// never all vanish
+// A point counts for the height of the friction centre by how much nearer it is than a quarter of the speculative
+// distance: friction acts where the bodies touch, not at a corner that stands off. Those farther off still count a
+// little: the weights never all vanish
 #define TOUCHES 4.0f
 #define LEAST_WEIGHT 1e-10f
 // ratio of the lesser to the greater eigenvalue below which a tangent matrix has one: far above rounding, far below

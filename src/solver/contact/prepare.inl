@@ -4,15 +4,19 @@
 // Contacts come from the whole of memory, in the order of the colours: those of the next row are fetched while this one
 // is computed.
 
-// fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const row_contacts *r, wide4 separation, wide count,
+// Fills the points, returns the friction centre. Along n it lies where those points are that touch: friction at a
+// height over them would have an arm about the edge on which a body stands. In the plane of the contact it is the mean
+// of all that are near. Twist and tangents together say the same wherever there the centre is, and it stays where it is
+// while the points of what rocks come to bear and cease to.
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const row_contacts *r, wide3 n, wide4 separation, wide count,
                                       const fe__step_constants *c)
 {
-    wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
+    wide zero = w_set(0.0f), one = w_set(1.0f), least = w_set(LEAST_WEIGHT), near = zero, touching = zero, apart = zero,
+         height = zero;
     wide4 impulse = POINTS_QUAD(normal_impulse);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
-    wide3 weighted = w_zero3();
+    wide3 sum = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *to = row->point + i;
@@ -23,16 +27,18 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const row_contacts *r, wide4 sep
         to->mass = w_choose(there, one, zero);
         to->impulse = impulses[i] * c->contact_warm_scale;
         row->total[i] = zero;
-        wide weight =
-            w_choose(there, w_clamp(1.0f - separations[i] * (TOUCHES / c->speculative), w_set(LEAST_WEIGHT), one),
-                     zero);
-        sum = sum + weight;
-        weighted = w_add_scaled(weighted, weight, arm);
-        apart = apart + weight * separations[i];
+        wide share = separations[i] * (1.0f / c->speculative);
+        wide is_near = w_choose(there, w_clamp(2.0f - share, least, one), zero),
+             touches = w_choose(there, w_clamp(1.0f - TOUCHES * share, least, one), zero);
+        near = near + is_near, touching = touching + touches;
+        sum = w_add_scaled(sum, is_near, arm);
+        height = height + touches * w_dot(n, arm);
+        apart = apart + touches * separations[i];
     }
-    wide inverse = w_inverse_or_zero(sum);
+    wide inverse = w_inverse_or_zero(touching);
+    wide3 centre = w_scale(w_inverse_or_zero(near), sum);
     row->separation[POINTS] = inverse * apart;
-    return w_scale(inverse, weighted);
+    return POINTS == 1 ? centre : w_add_scaled(centre, inverse * height - w_dot(n, centre), n);
 }
 
 FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 t2, const fe__step_constants *c)
@@ -201,7 +207,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     wide3 t1, t2;
     tangents(p.normal, &t1, &t2);
     wide4 separation = POINTS_QUAD(separation);
-    store3(row->centre, NAMED(prepare_points)(row, r, separation, normal.w, c));
+    store3(row->centre, NAMED(prepare_points)(row, r, p.normal, separation, normal.w, c));
     if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
     wide4 friction = POINTS_QUAD(friction_impulse);
