@@ -150,24 +150,39 @@ int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dv
     return rises(s, rim->p, m, near, rim);
 }
 
-int32_t fe__ground_is_level_about(const fe__ground *s, fe_dvec3 p, fe_dvec3 f, double level, double beside)
+static fe__bounds bounds_of(const fe_dvec3 *p, int32_t count, double wider)
 {
-    double most = fe__maxd(level, beside);
-    fe__bounds box = {{p.x - most, p.y - most, p.z - most}, {p.x + most, p.y + most, p.z + most}};
+    fe__bounds box = {p[0], p[0]};
+    for (int32_t k = 1; k < count; ++k) fe__bounds_add(&box, &(fe__bounds){p[k], p[k]});
+    return (fe__bounds){{box.low.x - wider, box.low.y - wider, box.low.z - wider},
+                        {box.high.x + wider, box.high.y + wider, box.high.z + wider}};
+}
+
+// As in ground.h, at any of the points
+static int32_t is_level(const fe__ground *s, const fe_dvec3 *p, int32_t count, fe_dvec3 f, double level, double beside)
+{
+    fe__bounds box = bounds_of(p, count, fe__maxd(level, beside));
     fe__ground_walk walk;
-    fe__ground_begin(&walk, s, &box, p);
+    fe__ground_begin(&walk, s, &box, p[0]);
     for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {
         fe_dvec3 v[3];
         fe__ground_corners(s, i, v);
         fe_dvec3 n = normal_of(v);
-        double cosine = fe__ddot(n, f), over = fe__ddot(n, fe__dsub(p, v[0]));
+        double cosine = fe__ddot(n, f);
         if (fe__ground_is_two_sided(s)) cosine = fe__absd(cosine);
-        if (cosine > (double)FE__LEVEL_COS && fe__absd(over) <= level && is_over(v, n, p, beside)) return 1;
+        if (!(cosine > (double)FE__LEVEL_COS)) continue;
+        for (int32_t k = 0; k < count; ++k)
+            if (fe__absd(fe__ddot(n, fe__dsub(p[k], v[0]))) <= level && is_over(v, n, p[k], beside)) return 1;
     }
     return 0;
 }
 
-int32_t fe__ground_is_level_at(const fe__ground *s, fe_dvec3 p, fe_dvec3 f)
+int32_t fe__ground_is_level_about(const fe__ground *s, fe_dvec3 p, fe_dvec3 f, double level, double beside)
 {
-    return fe__ground_is_level_about(s, p, f, (double)FE__LEVEL, 0.0);
+    return is_level(s, &p, 1, f, level, beside);
+}
+
+int32_t fe__ground_is_level_at_any(const fe__ground *s, const fe_dvec3 *p, int32_t count, fe_dvec3 f)
+{
+    return is_level(s, p, count, f, (double)FE__LEVEL, 0.0);
 }

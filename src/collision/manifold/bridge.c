@@ -13,18 +13,37 @@
 // that differ shift what rests on both
 #define NEARER 0.5f
 
-// p: of the face's plane
-static int32_t goes_on_at(const fe__crossing *c, fe_vec3 p, fe_vec3 f)
+// Points of the face's plane at which something else may go on
+enum { PLACES_MOST = 4 * FE_FACE_VERTICES + 1 };
+typedef struct places {
+    fe_vec3 at[PLACES_MOST];
+    int32_t count;
+} places;
+
+static int32_t solid_goes_on(const fe__crossing *c, const places *p, fe_vec3 f)
 {
     for (int32_t i = 0; i < c->around->solid_count; ++i)
-        if (fe__solid_is_level_at(c->around->solids + i, p, f)) return 1;
-    for (int32_t i = c->own ? -1 : 0; i < c->around->ground_count; ++i) {
-        const fe__neighbour *n = i < 0 ? c->own : c->around->grounds + i;
-        if (i < 0 && fe__dot(c->out, c->out) > 0.0f && fe__dot(c->out, fe__sub(p, c->edge)) <= 0.0f) continue;
-        if (fe__ground_is_level_at(&n->ground, fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))),
-                                   fe__widen(fe__mul_transposed(&n->axes, f))))
-            return 1;
+        for (int32_t k = 0; k < p->count; ++k)
+            if (fe__solid_is_level_at(c->around->solids + i, p->at[k], f)) return 1;
+    return 0;
+}
+
+static int32_t ground_goes_on(const fe__neighbour *n, const fe__crossing *c, const places *p, fe_vec3 f)
+{
+    int32_t beyond_alone = n == c->own && fe__dot(c->out, c->out) > 0.0f, count = 0;
+    fe_dvec3 at[PLACES_MOST];
+    for (int32_t k = 0; k < p->count; ++k) {
+        if (beyond_alone && fe__dot(c->out, fe__sub(p->at[k], c->edge)) <= 0.0f) continue;
+        at[count++] = fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p->at[k])));
     }
+    return count && fe__ground_is_level_at_any(&n->ground, at, count, fe__widen(fe__mul_transposed(&n->axes, f)));
+}
+
+static int32_t goes_on(const fe__crossing *c, const places *p, fe_vec3 f)
+{
+    if (solid_goes_on(c, p, f) || (c->own && ground_goes_on(c->own, c, p, f))) return 1;
+    for (int32_t i = 0; i < c->around->ground_count; ++i)
+        if (ground_goes_on(c->around->grounds + i, c, p, f)) return 1;
     return 0;
 }
 
@@ -44,13 +63,14 @@ static float find_feature(const fe__crossing *c, fe_vec3 q, fe_vec3 f, fe__face 
 
 // What lies over the gap at p of the face's plane: is it nearer to another rim? Asked as far from p as this one is, on
 // the other side and at 45 degrees to it: where corners meet, a gap may run on straight there
-static int32_t is_held_beyond(const fe__crossing *c, fe_vec3 p, fe_vec3 f, fe_vec3 rim, float separation)
+static void add_beyond(places *to, fe_vec3 p, fe_vec3 f, fe_vec3 rim, float separation)
 {
     fe_vec3 away = fe__sub(p, rim);
     away = fe__scale(separation > 0.0f ? 1.0f : NEARER, fe__add_scaled(away, -fe__dot(f, away), f));
     fe_vec3 beyond = fe__add(p, away), aside = fe__cross(f, away);
-    return goes_on_at(c, beyond, f) || goes_on_at(c, fe__add(beyond, aside), f) ||
-           goes_on_at(c, fe__sub(beyond, aside), f);
+    to->at[to->count++] = beyond;
+    to->at[to->count++] = fe__add(beyond, aside);
+    to->at[to->count++] = fe__sub(beyond, aside);
 }
 
 float fe__most_below(const fe__crossing *c)
@@ -64,12 +84,16 @@ int32_t fe__is_carried_over(const fe__crossing *c, fe_vec3 q, fe_vec3 f, const f
     float height[FE_FACE_VERTICES], below = fe__most_below(c), low = find_feature(c, q, f, &face, height);
     if (low < -below) return 0;
     fe_vec3 sum = {0.0f, 0.0f, 0.0f};
+    places places; // its points stay unwritten
+    places.count = 0;
     int32_t count = 0;
     for (int32_t i = 0; i < face.count; ++i) {
         if (height[i] > fe__maxf(low, 0.0f) + below) continue;
         fe_vec3 p = fe__add_scaled(face.vertex[i], -height[i] - c->body.form->radius, f);
-        if (goes_on_at(c, p, f) || (rim && is_held_beyond(c, p, f, *rim, separation))) return 1;
+        places.at[places.count++] = p;
+        if (rim) add_beyond(&places, p, f, *rim, separation);
         sum = fe__add(sum, p), ++count;
     }
-    return count > 1 && goes_on_at(c, fe__scale(1.0f / (float)count, sum), f);
+    if (count > 1) places.at[places.count++] = fe__scale(1.0f / (float)count, sum);
+    return places.count && goes_on(c, &places, f);
 }

@@ -130,7 +130,8 @@ void fe__leave_carried(fe__gathering *g)
         for (int32_t i = 0; i < p->count; ++i)
             if (!(carried[k] >> i & 1)) p->points[kept++] = p->points[i];
         p->count = kept;
-        if (kept) g->patches[count++] = *p;
+        if (kept && count < k) g->patches[count] = *p;
+        count += kept > 0;
     }
     g->count = count;
 }
