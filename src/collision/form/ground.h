@@ -68,8 +68,8 @@ static inline int32_t fe__ground_next_index(fe__ground_walk *walk)
 // Does the surface go on at p and rise along the unit m from there? A triangle nearer to p than `near`, m, counts.
 int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near);
 
-// Has it a triangle with the normal f that is level with one of the points (FE__LEVEL), and that this point lies over or
-// under? One walk for all of them, 1 or more
+// Has it a triangle with the normal f that is level with one of the points (FE__LEVEL), and that this point lies over
+// or under? One walk for all of them, 1 or more
 int32_t fe__ground_is_level_at_any(const fe__ground *s, const fe_dvec3 *p, int32_t count, fe_dvec3 f);
 // The same of a point, over or under by at most `level`, and beside the triangle by at most `beside`, m
 int32_t fe__ground_is_level_about(const fe__ground *s, fe_dvec3 p, fe_dvec3 f, double level, double beside);
