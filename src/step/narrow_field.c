@@ -6,6 +6,7 @@
 // here.
 #include "step/narrow_field.h"
 
+#include "collision/form/hull_form.h"
 #include "collision/manifold/terrain.h"
 #include "collision/manifold/terrain_course.h"
 #include "step/narrow.h"
@@ -109,9 +110,9 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
                       .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
     fe__surroundings around; // their numbers say how many are written
-    fe__find_surroundings(w, &l->v, p->field, p->other, &around);
-    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     fe__mat3 rotation = rotation_of(pose_field, pose_other);
+    fe__find_surroundings(w, &l->v, p->field, p->other, fe__mul(&rotation, fe__form_middle(&p->other->form)), &around);
+    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }

@@ -10,7 +10,7 @@ enum {
     FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
                      // no contact is lost
     FE__NEIGHBOURS = 8,  // other surfaces near the same body
-    FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
+    FE__NEAR_SOLIDS = 16, // other static boxes and hulls near it
 };
 
 // cos 1.8 degrees: of normals of one patch
