@@ -88,7 +88,7 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     if (fe__dot(lean, lean) <= flat * flat) m = tile->normal;
     // Where core and side nearly run alike, rounding shifts their nearest points: what leans inwards is over the face
     if (fe__dot(m, fe__sub(tile->form.vertex[(k + 2) % 3], start)) > flat * tile->size) return;
-    if (fe__dot(m, tile->normal) < 0.0f || !fe__tile_feels_along(g, tile, m, &q, distance - radius)) return;
+    if (fe__dot(m, tile->normal) < -flat || !fe__tile_feels_along(g, tile, m, &q, distance - radius)) return;
 
     // along the side the core has two points, else the nearest
     fe_vec3 d = fe__sub(ends[1], ends[0]);
