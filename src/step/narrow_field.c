@@ -282,12 +282,20 @@ static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
     return count;
 }
 
+static const fe__manifold_point *deepest_point(const fe__patch *patch)
+{
+    const fe__manifold_point *deepest = patch->points;
+    for (int32_t i = 1; i < patch->count; ++i)
+        if (patch->points[i].separation < deepest->separation) deepest = patch->points + i;
+    return deepest;
+}
+
 static void remember_faces(pair_view *p, const plan *plans, int32_t count)
 {
     const fe__pose *field = &p->field->pose;
     fe_dvec3 origin = fe__drotate_back(field->rotation, fe__dsub(p->other->pose.position, field->position));
     for (int32_t i = 0; i < count; ++i) {
-        const fe__manifold_point *point = plans[i].patch->points;
+        const fe__manifold_point *point = deepest_point(plans[i].patch);
         fe_vec3 n = plans[i].patch->normal, on_face = fe__add_scaled(point->point, -0.5f * point->separation, n);
         p->known[i] = n, p->known_at[i] = fe__dadd(origin, fe__widen(on_face));
     }

@@ -41,6 +41,15 @@ static fe_vec3 on_surface(const fe__raw_patch *patch, int32_t i)
     return fe__add_scaled(patch->points[i].point, -0.5f * patch->points[i].separation, patch->normal);
 }
 
+// Of the points of a patch that are cut from a side face, some lie far below what is touched.
+static fe_vec3 deepest_on_surface(const fe__raw_patch *patch)
+{
+    int32_t deepest = 0;
+    for (int32_t i = 1; i < patch->count; ++i)
+        if (patch->points[i].separation < patch->points[deepest].separation) deepest = i;
+    return on_surface(patch, deepest);
+}
+
 static int32_t is_level_about(const fe__terrain *t, fe_vec3 p, fe_vec3 n, float level, float beside)
 {
     return fe__ground_is_level_about(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(n), (double)level,
@@ -81,7 +90,7 @@ static int32_t is_carried_at(const fe__gathering *g, const fe__raw_patch *patch,
                                    .around = t->around,
                                    .own = &own,
                                    .fall = t->fall,
-                                   .edge = edge,
+                                   .edge = fe__add_scaled(edge, above, out),
                                    .out = out};
     return fe__is_carried_over(&crossing, edge, f, &q, patch->points[i].separation);
 }
@@ -111,7 +120,7 @@ static uint32_t points_carried_by_any(const fe__gathering *g, const fe__raw_patc
     uint32_t carried = 0;
     for (int32_t k = 0; k < g->count; ++k) {
         const fe__raw_patch *other = g->patches + k;
-        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->normal, on_surface(other, 0)});
+        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->normal, deepest_on_surface(other)});
     }
     for (int32_t k = 0; k < t->known_count; ++k)
         carried |= points_carried(g, patch, &(carrier){t->known[k], fe__narrow(fe__dsub(t->known_at[k], t->origin))});
