@@ -99,10 +99,8 @@ static int32_t is_carried_at(const fe__gathering *g, const fe__raw_patch *patch,
 // others lie beside them
 static uint32_t points_carried(const fe__gathering *g, const fe__raw_patch *patch, const carrier *by)
 {
-    const float steepest = -0.01f; // cosine
-    int32_t is_round = g->form->radius > 0.0f;
-    float flattest = is_round || fe__form_is_curved(g->form) ? 0.9999f : 0.5f,
-          distance = is_round ? EDGE_NEAR : FACE_NEAR;
+    const float steepest = -0.01f, flattest = 0.9999f; // cosines
+    float distance = g->form->radius > 0.0f ? EDGE_NEAR : FACE_NEAR;
     uint32_t near = 0, carried = 0;
     float cosine = fe__dot(patch->normal, by->f);
     if (cosine < steepest || cosine > flattest) return 0;
