@@ -125,12 +125,26 @@ static uint32_t points_carried_by_any(const fe__gathering *g, const fe__raw_patc
     return carried;
 }
 
+// The rims on both sides of what is round carry each other: where nothing else is touched, the one stays that is
+// nearest to its touch.
+static void keep_one_that_carries(const fe__gathering *g, uint32_t *carried)
+{
+    int32_t best = 0;
+    if (g->terrain->known_count) return;
+    for (int32_t k = 0; k < g->count; ++k) {
+        if (carried[k] != (1u << g->patches[k].count) - 1u) return;
+        if (fe__absf(g->patches[k].deepest) < fe__absf(g->patches[best].deepest)) best = k;
+    }
+    carried[best] = 0;
+}
+
 void fe__leave_carried(fe__gathering *g)
 {
     uint32_t carried[FE__PATCHES + 1]; // of each patch, a bit for each point
     int32_t count = 0;
-    if (g->count + g->terrain->known_count < 2 || !g->terrain->ground.mesh) return;
+    if (g->count + g->terrain->known_count < 2 || !g->count || !g->terrain->ground.mesh) return;
     for (int32_t k = 0; k < g->count; ++k) carried[k] = points_carried_by_any(g, g->patches + k);
+    keep_one_that_carries(g, carried);
     for (int32_t k = 0; k < g->count; ++k) {
         fe__raw_patch *p = g->patches + k;
         int32_t kept = 0;

@@ -242,7 +242,7 @@ static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t
 // ---- cones of a mesh -----------------------------------------------------------------------------------------------
 static int32_t mesh_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 p, fe_vec3 m)
 {
-    float near = fe__minf(NEAR_SHARE * tile->size, NEAR);
+    float near = fe__tile_goes_on(tile);
     if (fe__ground_rises(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(m), (double)near)) return 0;
     for (int32_t i = 0; i < t->around->ground_count; ++i)
         if (goes_on(t->around->grounds + i, p, m, near)) return 0;
