@@ -99,7 +99,8 @@ static void touch_face(const seam *s, fe_vec3 f, float sign, fe__manifold *found
     fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
     project(&reference, reference.vertex[0], &frame, side);
     project(&incident, reference.vertex[0], &frame, vertex);
-    const float slack = 1e-5f, tie = 5e-5f; // m
+    // what is over a gap that counts as flush is over both faces, or it would be over none
+    const float slack = FE__FLUSH, tie = 5e-5f; // m
     int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, slack);
     found->count = fe__keep_near(vertex, count, s->other.form->radius, s->margin, tie);
     if (found->count) found->normal = fe__scale(sign, f);

@@ -50,7 +50,8 @@ static int32_t cannot_close(const fe__step *step, const fe__contact *m, int32_t 
 }
 
 // Do they miss each other, if each of the two moves as it does now? The normal of a manifold of poses to come says
-// nothing of the gap now. What lies under ground that stands, since that rose, touches it and meets none of its triangles.
+// nothing of the gap now. What lies under ground that stands, since that rose, touches it and meets none of its
+// triangles.
 static int32_t passes_by(const fe__step *step, int32_t pair, int32_t mover)
 {
     const fe_world *w = step->world;

@@ -89,8 +89,7 @@ void fe__find_surroundings(const fe_world *w, const fe__view *v, const fe__shape
         if (p->next_patch >= 0) {
             fe__neighbour n = place_ground(w, v, near);
             float distance = distance_of_ground(&n, centre);
-            int32_t place =
-                distance > most ? -1 : place_for(distance, grounds, &found->ground_count, FE__NEIGHBOURS);
+            int32_t place = distance > most ? -1 : place_for(distance, grounds, &found->ground_count, FE__NEIGHBOURS);
             if (place >= 0) found->grounds[place] = n;
         } else if (fe__is_static_solid(w, near)) {
             fe__solid s = place_solid(v, near);

@@ -110,8 +110,9 @@ static double a_touch_alone_wakes(dice *d, char *told)
     return hits ? !(touched && woke && !late) * 2 : (touched || woke || !same) * 2;
 }
 
-// A kinematic box, made of triangles or not, spins about the vertical beside a body that sleeps: its corners pass at a gap
-// of 1 to 20 mm. The other sleeps on, in the same pose. Where they reach 1 to 5 cm into an upright side, they wake it.
+// A kinematic box, made of triangles or not, spins about the vertical beside a body that sleeps: its corners pass at a
+// gap of 1 to 20 mm. The other sleeps on, in the same pose. Where they reach 1 to 5 cm into an upright side, they wake
+// it.
 static double what_spins_beside_a_sleeper_lets_it_sleep(dice *d, char *told)
 {
     rate r = any_rate(d);
@@ -123,8 +124,8 @@ static double what_spins_beside_a_sleeper_lets_it_sleep(dice *d, char *told)
                                   friction(0.6), WATER);
     let_sleep(&s, sleeper);
     double reach = sqrt(2) * b.half, gap = hits ? -fmin(uniform(d, 0.01, 0.05), 0.2 * b.half) : spread(d, 1e-3, 0.02);
-    fe_body spinner = add_body(&s, FE_BODY_KINEMATIC, b.form, v3(a.half + reach + gap, b.height, 0), UNTURNED,
-                               friction(0), WATER);
+    fe_body spinner =
+        add_body(&s, FE_BODY_KINEMATIC, b.form, v3(a.half + reach + gap, b.height, 0), UNTURNED, friction(0), WATER);
     law_run(&s, r, 2);
     fe_transform before;
     MUST(fe_body_get_transform(s.world, sleeper, &before));
@@ -136,8 +137,9 @@ static double what_spins_beside_a_sleeper_lets_it_sleep(dice *d, char *told)
         woke |= is_awake(&s, sleeper);
     }
     int same = is_same_pose(&s, sleeper, &before);
-    snprintf(told, LAW_TOLD, "%d Hz, %d substeps, %s (%.3g m) spins at %.3g rad/s beside %s (%.3g m), gap %.3g mm: %s, %s",
-             r.hertz, r.substeps, names[kind_b], b.half, spin, names[kind_a], a.half, 1e3 * gap,
+    snprintf(told, LAW_TOLD,
+             "%d Hz, %d substeps, %s (%.3g m) spins at %.3g rad/s beside %s (%.3g m), gap %.3g mm: %s, %s", r.hertz,
+             r.substeps, names[kind_b], b.half, spin, names[kind_a], a.half, 1e3 * gap,
              slept ? "slept" : "did not sleep", woke ? "woke" : "slept on");
     scene_end(&s);
     if (!slept) return 2;
