@@ -232,14 +232,14 @@ static double a_ball_feels_the_dip_alone(dice *d, char *told)
 }
 
 // What rises above the middle of a body, behind a gap of any width, stops it: it comes no nearer than the solver's
-// slop. Tiles with sides make the floor and the wall, which has seams.
+// slop. Solid tiles make the floor and the wall, which has seams.
 static double a_wall_behind_a_gap_stops(dice *d, char *told)
 {
-    static const tile_kind with_sides[] = {BOXES, HULLS, PARTS, CLOSED};
+    static const tile_kind solids[] = {BOXES, HULLS, PARTS}; // of a mesh see CHANGELOG.md
     rate r = any_rate(d);
     scene s = law_scene(r);
     floor_of_tiles f = any_floor(d);
-    f.kind = with_sides[pick(d, 4)];
+    f.kind = solids[pick(d, 3)];
     int kind = pick(d, 4);
     double a = spread(d, 0.1, 0.4), b = a * uniform(d, 0.3, 1), height = kind == 3 ? a : b,
            wall = height * uniform(d, 1.05, 3), speed = spread(d, 0.5, 10);
@@ -249,8 +249,8 @@ static double a_wall_behind_a_gap_stops(dice *d, char *told)
                        : kind == 1 ? hull_box(&s, a, b, a)
                        : kind == 2 ? cylinder(b, a)
                                    : sphere(a);
-    // a ball comes straight at a seam of solids: for what else does see CHANGELOG.md
-    double aside = kind == 3 && f.kind != CLOSED ? 0 : f.width * uniform(d, 0.2, 0.8);
+    // a ball comes straight at a seam: for a cylinder that does see CHANGELOG.md
+    double aside = kind == 3 ? 0 : f.width * uniform(d, 0.2, 0.8);
     vec at = v3(-uniform(d, 1.5, 2) * a, height, aside);
     fe_body body =
         add_dynamic(&s, form, rotate(turn_of(&f), at), turned(v3(0, 1, 0), uniform(d, -PI, PI)), friction(0), WATER);
