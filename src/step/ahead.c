@@ -44,6 +44,56 @@ int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt)
     return meeting_of(world, pair, dt, 1.0, &a, &b, &impact) != FE_MEET_NEVER;
 }
 
+// ---- a surface, triangle by triangle -------------------------------------------------------------------------------
+// The origin of a mobile's form, seen from where another is at the time s
+static fe_dvec3 seen_from(const fe__mobile *from, const fe__mobile *other, double s)
+{
+    fe__pose here = fe__mobile_at(from, s), there = fe__mobile_at(other, s);
+    return fe__drotate_back(here.rotation, fe__dsub(there.position, here.position));
+}
+
+// What holds the other on its way past the surface, in the surface's frame. Seen from what turns by the angle t, a way
+// is bent: from its chord by (t^2 r + 2 t |v|) / 8 at most at a steady turn, r the distance from what it turns about.
+static fe__bounds way_past(const fe__mobile *surface, const fe__mobile *other)
+{
+    const double bent = 0.5; // four times 1/8: no turn between two rotations is steady
+    const fe__motion *m = &surface->motion;
+    fe_dvec3 from = seen_from(surface, other, 0.0), to = seen_from(surface, other, 1.0);
+    fe_dvec3 between = fe__dsub(other->motion.centre, m->centre),
+             way = fe__dsub(other->motion.translation, m->translation);
+    fe_quat q = m->angular_displacement;
+    double half_sine = sqrt((double)(q.x * q.x + q.y * q.y + q.z * q.z)), t = 4.0 * half_sine; // more than the angle
+    double speed = sqrt(fe__ddot(way, way)), r = sqrt(fe__ddot(between, between)) + speed,
+           wide = (double)fe__form_reach(other->form, fe__vec3(0.0f, 0.0f, 0.0f)) + FE_TOUCH +
+                  bent * (t * t * r + 2.0 * t * speed);
+    fe_dvec3 more = {wide, wide, wide};
+    fe__bounds box = {fe__dsub(from, more), fe__dadd(from, more)}, end = {fe__dsub(to, more), fe__dadd(to, more)};
+    fe__bounds_add(&box, &end);
+    return box;
+}
+
+int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt)
+{
+    const fe__pair *p = world->pairs + pair;
+    int32_t a_is_field = fe__form_is_field(&world->shapes[p->shape_a].form);
+    int32_t field = a_is_field ? p->shape_a : p->shape_b, other = a_is_field ? p->shape_b : p->shape_a;
+    fe_dvec3 base = fe__centre_of(world->bodies + world->shapes[other].body);
+    fe__mobile surface = mobile_of(world, field, dt, base), b = mobile_of(world, other, dt, base), a = surface;
+    fe__ground ground = fe__store_ground(world->store, surface.form);
+    fe__bounds box = way_past(&surface, &b);
+    fe_dvec3 origin = seen_from(&surface, &b, 0.0); // of the triangles, near the other
+    a.arm = fe__dadd(surface.arm, fe__drotate(surface.rotation, origin));
+    fe__form triangle;
+    a.form = &triangle;
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, &ground, &box, origin);
+    while (fe__ground_next(&walk, &triangle) >= 0) {
+        fe__impact impact;
+        if (fe__time_of_impact(&a, &b, 1.0, &impact) != FE_MEET_NEVER) return 1;
+    }
+    return 0;
+}
+
 // sine of half the angle until the touch above which a contact says nothing of the bodies as they are now
 #define TURNED 0.25f
 

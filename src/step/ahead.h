@@ -13,5 +13,7 @@ int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe
 
 // Do they meet within the step, if each moves as it does now? Not for heightfields and meshes: they are not convex.
 int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt);
+// The same for a pair with one, of whose triangles each is. What lies under the surface meets none of them.
+int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt);
 
 #endif

@@ -84,8 +84,8 @@ typedef struct prediction {
     fe__manifold found;
 } prediction;
 
-// the manifold at out->at
-static void predict_there(const fe__step *step, const fe__contact *m, const fe__view *v, prediction *out)
+// the manifold at out->at. `fall`: m, what gravity brings a body towards another one until then
+static void predict_there(const fe__step *step, const fe__contact *m, const fe__view *v, float fall, prediction *out)
 {
     const fe_world *world = step->world;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
@@ -98,8 +98,7 @@ static void predict_there(const fe__step *step, const fe__contact *m, const fe__
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
-    if (a->type == FE_BODY_STATIC)
-        fe__mend_seam(world, &out->v, world->tuning.speculative_distance, step->fall, &out->found);
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, fall, &out->found);
 }
 
 static void predict(const fe__step *step, const fe__contact *m, const fe__view *v, float time, prediction *out)
@@ -107,7 +106,8 @@ static void predict(const fe__step *step, const fe__contact *m, const fe__view *
     const fe_world *world = step->world;
     fe__advance(world, world->bodies + m->body_a, time, &out->at.centre_a, &out->at.rotation_a);
     fe__advance(world, world->bodies + m->body_b, time, &out->at.centre_b, &out->at.rotation_b);
-    predict_there(step, m, v, out);
+    float share = time / step->dt; // fe__advance falls as one step of that length does
+    predict_there(step, m, v, share * share * step->fall, out);
 }
 
 static float deepest_of(const fe__manifold *found)
@@ -144,7 +144,7 @@ static int32_t look_far_ahead(const fe__step *step, const fe__contact *m, fe__vi
     const fe_world *world = step->world;
     prediction touch;
     if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), step->dt, &touch.at)) return 0;
-    predict_there(step, m, v, &touch);
+    predict_there(step, m, v, step->fall, &touch);
     if (!touch.found.count) return 0;
     *v = touch.v, *at = touch.at, *found = touch.found;
     return 1;

@@ -6,6 +6,7 @@
 // here.
 #include "step/narrow_field.h"
 
+#include "collision/form/hull_form.h"
 #include "collision/manifold/terrain.h"
 #include "collision/manifold/terrain_course.h"
 #include "step/narrow.h"
@@ -28,12 +29,12 @@ typedef struct pair_view {
     const fe_world *world;
     const fe__body *a, *b; // the solver's
     const fe__shape *field, *other;
-    fe_vec3 known[FE__PATCHES]; // normals of what touches now, the field's frame
+    fe_vec3 known[FE__PATCHES], known_face[FE__PATCHES]; // normals of what touches now, the field's frame
     fe_dvec3 known_at[FE__PATCHES];
     int32_t known_count;
     const fe__mesh_near *near; // triangles of all looks, or NULL
     float dt, speed_limit;     // s; m/s that no point of either body exceeds
-    float fall;                // m, see fe__terrain
+    float step_fall, fall;     // m, within the step, and until the look: see fe__terrain
     int32_t is_last;           // the look is at the end of the step
 } pair_view;
 
@@ -43,15 +44,16 @@ static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, co
 {
     fe__ground ground = fe__store_ground(p->world->store, &p->field->form);
     ground.near = p->near;
-    return (fe__terrain){
-        .ground = ground,
-        .origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-        .around = around,
-        .known = p->known,
-        .known_at = p->known_at,
-        .known_count = p->known_count,
-        .is_last = p->is_last,
-        .fall = p->fall};
+    return (fe__terrain){.ground = ground,
+                         .origin = fe__drotate_back(pose_field->rotation,
+                                                    fe__dsub(pose_other->position, pose_field->position)),
+                         .around = around,
+                         .known = p->known,
+                         .known_face = p->known_face,
+                         .known_at = p->known_at,
+                         .known_count = p->known_count,
+                         .is_last = p->is_last,
+                         .fall = p->fall};
 }
 
 static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
@@ -109,16 +111,17 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
                       .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
     fe__surroundings around; // their numbers say how many are written
-    fe__find_surroundings(w, &l->v, p->field, p->other, &around);
-    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     fe__mat3 rotation = rotation_of(pose_field, pose_other);
+    fe__find_surroundings(w, &l->v, p->field, p->other, fe__mul(&rotation, fe__form_middle(&p->other->form)), &around);
+    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
 
 static void look_after(pair_view *p, float time, float margin, look *l)
 {
-    p->is_last = time == p->dt;
+    float share = time / p->dt; // fe__advance falls as one step of that length does
+    p->is_last = time == p->dt, p->fall = share * share * p->step_fall;
     fe__places *at = &l->at;
     fe__advance(p->world, p->a, time, &at->centre_a, &at->rotation_a);
     fe__advance(p->world, p->b, time, &at->centre_b, &at->rotation_b);
@@ -281,14 +284,22 @@ static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
     return count;
 }
 
+static const fe__manifold_point *deepest_point(const fe__patch *patch)
+{
+    const fe__manifold_point *deepest = patch->points;
+    for (int32_t i = 1; i < patch->count; ++i)
+        if (patch->points[i].separation < deepest->separation) deepest = patch->points + i;
+    return deepest;
+}
+
 static void remember_faces(pair_view *p, const plan *plans, int32_t count)
 {
     const fe__pose *field = &p->field->pose;
     fe_dvec3 origin = fe__drotate_back(field->rotation, fe__dsub(p->other->pose.position, field->position));
     for (int32_t i = 0; i < count; ++i) {
-        const fe__manifold_point *point = plans[i].patch->points;
+        const fe__manifold_point *point = deepest_point(plans[i].patch);
         fe_vec3 n = plans[i].patch->normal, on_face = fe__add_scaled(point->point, -0.5f * point->separation, n);
-        p->known[i] = n, p->known_at[i] = fe__dadd(origin, fe__widen(on_face));
+        p->known[i] = n, p->known_face[i] = plans[i].patch->face, p->known_at[i] = fe__dadd(origin, fe__widen(on_face));
     }
     p->known_count = count;
 }
@@ -312,7 +323,8 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
                       .b = world->bodies + m->body_b,
                       .field = swapped ? y : x,
                       .other = swapped ? x : y,
-                      .dt = step->dt};
+                      .dt = step->dt,
+                      .step_fall = step->fall};
     float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
     fe__mesh_near room;
@@ -327,7 +339,6 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     int32_t count = 0, ahead = 0;
     for (int32_t i = 0; i < now.count; ++i)
         if (has_near(now.patches + i, margin)) plans[count++] = (plan){.from = &now, .patch = now.patches + i};
-    view.fall = step->fall; // from here on the poses are ahead of time
     if (now.count && !sensor) {
         if (deepest_of(&now) > FE__TURNS_LITTLE) {
             ahead = look_ahead(&view, &now, &then);

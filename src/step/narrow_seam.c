@@ -8,6 +8,7 @@
 #include "step/narrow_seam.h"
 
 #include "collision/form/clip.h"
+#include "collision/form/hull_form.h"
 #include "collision/form/solid.h"
 #include "collision/form/support.h"
 #include "collision/manifold/bridge.h"
@@ -101,7 +102,8 @@ static void touch_face(const seam *s, fe_vec3 f, float sign, fe__manifold *found
     fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
     project(&reference, reference.vertex[0], &frame, side);
     project(&incident, reference.vertex[0], &frame, vertex);
-    const float slack = 1e-5f, tie = 5e-5f; // m
+    // what is over a gap that counts as flush is over both faces, or it would be over none
+    const float slack = FE__FLUSH, tie = 5e-5f; // m
     int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, slack);
     found->count = fe__keep_near(vertex, count, s->other.form->radius, s->margin, tie);
     if (found->count) found->normal = fe__scale(sign, f);
@@ -150,11 +152,12 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, float
     if (!found->count || !fe__is_static_solid(world, solid) || world->bodies[other->body].static_pairs < 2) return;
     seam s; // the numbers of what is around say how many are written
     s.margin = margin, s.fall = fall;
-    fe__find_surroundings(world, v, solid, other, &s.around);
-    if (!(s.around.solid_count | s.around.ground_count)) return;
     fe__solid a = {.form = &v->a->form, .axes = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
     fe__solid b = {.form = &v->b->form, .centre = v->relative.position, .axes = v->relative.rotation};
     s.solid = solid_is_a ? a : b, s.other = solid_is_a ? b : a;
+    fe_vec3 middle = fe__mul(&s.other.axes, fe__form_middle(s.other.form));
+    fe__find_surroundings(world, v, solid, other, fe__add(s.other.centre, middle), &s.around);
+    if (!(s.around.solid_count | s.around.ground_count)) return;
     float sign = solid_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];
     for (int32_t i = 0; i < found->count; ++i) q[i] = touched(&s, found->points + i, m);

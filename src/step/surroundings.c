@@ -1,6 +1,7 @@
 // surroundings.c - see surroundings.h.
 #include "step/surroundings.h"
 
+#include "collision/form/hull_form.h"
 #include "world/pair_list.h"
 
 int32_t fe__is_static_solid(const fe_world *w, const fe__shape *shape)
@@ -30,17 +31,71 @@ static fe__neighbour place_ground(const fe_world *w, const fe__view *v, const fe
                            axes_of(v, shape)};
 }
 
-void fe__find_surroundings(const fe_world *w, const fe__view *v, const fe__shape *self, const fe__shape *other,
-                           fe__surroundings *found)
+// ---- the nearest ---------------------------------------------------------------------------------------------------
+static float beyond(float x, float low, float high) { return fe__maxf(fe__maxf(low - x, x - high), 0.0f); }
+
+// of a point from a box, m2
+static float distance_from(fe_vec3 low, fe_vec3 high, fe_vec3 p)
 {
+    fe_vec3 away = {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)};
+    return fe__dot(away, away);
+}
+
+static float distance_of_solid(const fe__solid *s, fe_vec3 centre)
+{
+    const fe__form *f = s->form;
+    fe_vec3 p = fe__mul_transposed(&s->axes, fe__sub(centre, s->centre));
+    if (!fe__form_is_hull(f)) return distance_from(fe__neg(f->half), f->half, p);
+    return distance_from(fe__add_scaled(f->offset, f->scale, f->hull->low),
+                         fe__add_scaled(f->offset, f->scale, f->hull->high), p);
+}
+
+static float distance_of_ground(const fe__neighbour *n, fe_vec3 centre)
+{
+    fe__bounds box = fe__ground_bounds(&n->ground);
+    fe_dvec3 p = fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, centre)));
+    return distance_from(fe__narrow(fe__dsub(box.low, p)), fe__narrow(fe__dsub(box.high, p)),
+                         (fe_vec3){0.0f, 0.0f, 0.0f});
+}
+
+// Where the next one goes among at most `most`, of which the farthest makes room. -1: it is no nearer
+static int32_t place_for(float distance, float *distances, int32_t *count, int32_t most)
+{
+    int32_t place = *count;
+    if (*count < most)
+        ++*count;
+    else {
+        place = 0;
+        for (int32_t i = 1; i < most; ++i)
+            if (distances[i] > distances[place]) place = i;
+        if (distance >= distances[place]) return -1;
+    }
+    distances[place] = distance;
+    return place;
+}
+
+void fe__find_surroundings(const fe_world *w, const fe__view *v, const fe__shape *self, const fe__shape *other,
+                           fe_vec3 centre, fe__surroundings *found)
+{
+    // What is round is held up from as far beyond its lowest point as the rim that it touches lies on this side
+    const float wide = 2.0f;
+    float reach = wide * fe__form_reach(&other->form, fe__form_middle(&other->form)), most = reach * reach;
+    float grounds[FE__NEIGHBOURS], solids[FE__NEAR_SOLIDS]; // their distances, m2
     found->ground_count = found->solid_count = 0;
     for (int32_t pair = w->bodies[other->body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, other->body)) {
         const fe__pair *p = w->pairs + pair;
         const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *near = x == other ? y : x;
         if (p->flags & FE__PAIR_PATCH || near == self || (x != other && y != other)) continue;
         if (p->next_patch >= 0) {
-            if (found->ground_count < FE__NEIGHBOURS) found->grounds[found->ground_count++] = place_ground(w, v, near);
-        } else if (found->solid_count < FE__NEAR_SOLIDS && fe__is_static_solid(w, near))
-            found->solids[found->solid_count++] = place_solid(v, near);
+            fe__neighbour n = place_ground(w, v, near);
+            float distance = distance_of_ground(&n, centre);
+            int32_t place = distance > most ? -1 : place_for(distance, grounds, &found->ground_count, FE__NEIGHBOURS);
+            if (place >= 0) found->grounds[place] = n;
+        } else if (fe__is_static_solid(w, near)) {
+            fe__solid s = place_solid(v, near);
+            float distance = distance_of_solid(&s, centre);
+            int32_t place = distance > most ? -1 : place_for(distance, solids, &found->solid_count, FE__NEAR_SOLIDS);
+            if (place >= 0) found->solids[place] = s;
+        }
     }
 }

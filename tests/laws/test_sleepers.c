@@ -70,7 +70,7 @@ static int32_t count_touches(const scene *s, fe_body a, fe_body b)
 
 // Bodies as high as each other stand on a floor; one of them slides by, or is moved by, at a gap of 0.1 to 20 mm: the
 // other sleeps on, in the same pose. One that comes straight at it wakes it in the step of its touch, which an event
-// tells. A mesh comes straight at it only: what it passes near it may wake.
+// tells.
 static double a_touch_alone_wakes(dice *d, char *told)
 {
     rate r = any_rate(d);
@@ -78,7 +78,7 @@ static double a_touch_alone_wakes(dice *d, char *told)
     add_ground(&s, friction(0.6));
     int32_t type = chance(d, 0.3) ? FE_BODY_KINEMATIC : FE_BODY_DYNAMIC;
     int kind_a = pick(d, 5), kind_b = pick(d, type == FE_BODY_KINEMATIC ? 6 : 5);
-    int hits = chance(d, 0.3) || kind_b == MESH;
+    int hits = chance(d, 0.3);
     stander a = any_stander(&s, d, kind_a), b = any_stander(&s, d, kind_b);
     fe_quat flat = turned(v3(1, 0, 0), PI / 2);
     fe_body sleeper = add_dynamic(&s, a.form, v3(0, a.height, 0), a.lies ? flat : UNTURNED, friction(0.6), WATER);
@@ -108,6 +108,42 @@ static double a_touch_alone_wakes(dice *d, char *told)
     scene_end(&s);
     if (!slept) return 2;
     return hits ? !(touched && woke && !late) * 2 : (touched || woke || !same) * 2;
+}
+
+// A kinematic box, made of triangles or not, spins about the vertical beside a body that sleeps: its corners pass at a
+// gap of 1 to 20 mm. The other sleeps on, in the same pose. Where they reach 1 to 5 cm into an upright side, they wake
+// it.
+static double what_spins_beside_a_sleeper_lets_it_sleep(dice *d, char *told)
+{
+    rate r = any_rate(d);
+    scene s = law_scene(r);
+    add_ground(&s, friction(0.6));
+    int kind_a = pick(d, 5), kind_b = chance(d, 0.7) ? MESH : 2, hits = kind_a >= 2 && chance(d, 0.4);
+    stander a = any_stander(&s, d, kind_a), b = any_stander(&s, d, kind_b);
+    fe_body sleeper = add_dynamic(&s, a.form, v3(0, a.height, 0), a.lies ? turned(v3(1, 0, 0), PI / 2) : UNTURNED,
+                                  friction(0.6), WATER);
+    let_sleep(&s, sleeper);
+    double reach = sqrt(2) * b.half, gap = hits ? -fmin(uniform(d, 0.01, 0.05), 0.2 * b.half) : spread(d, 1e-3, 0.02);
+    fe_body spinner =
+        add_body(&s, FE_BODY_KINEMATIC, b.form, v3(a.half + reach + gap, b.height, 0), UNTURNED, friction(0), WATER);
+    law_run(&s, r, 2);
+    fe_transform before;
+    MUST(fe_body_get_transform(s.world, sleeper, &before));
+    double spin = spread(d, 0.5, 5) * (chance(d, 0.5) ? 1 : -1);
+    int slept = !is_awake(&s, sleeper), woke = 0;
+    set_velocity(&s, spinner, v3(0, 0, 0), v3(0, spin, 0));
+    for (int i = 0, steps = (int)(PI / 2 / fabs(spin) * r.hertz) + 2; i < steps; ++i) {
+        law_run(&s, r, 1.0 / r.hertz);
+        woke |= is_awake(&s, sleeper);
+    }
+    int same = is_same_pose(&s, sleeper, &before);
+    snprintf(told, LAW_TOLD,
+             "%d Hz, %d substeps, %s (%.3g m) spins at %.3g rad/s beside %s (%.3g m), gap %.3g mm: %s, %s", r.hertz,
+             r.substeps, names[kind_b], b.half, spin, names[kind_a], a.half, 1e3 * gap,
+             slept ? "slept" : "did not sleep", woke ? "woke" : "slept on");
+    scene_end(&s);
+    if (!slept) return 2;
+    return (hits ? !woke : woke || !same) * 2;
 }
 
 static double far_below(double x, double z) { return x - x + z - z - 1; }
@@ -147,6 +183,7 @@ static double a_ground_that_rises_into_a_sleeper_wakes_it(dice *d, char *told)
 int main(int argc, char **argv)
 {
     static const law laws[] = {{LAW(a_touch_alone_wakes), 300},
+                               {LAW(what_spins_beside_a_sleeper_lets_it_sleep), 300},
                                {LAW(a_ground_that_rises_into_a_sleeper_wakes_it), 300}};
     return law_main(argc, argv, laws, sizeof laws / sizeof *laws);
 }

@@ -8,6 +8,11 @@
 // `index`: of its asset
 fe__form fe__hull_form(const fe__hull *hull, int32_t index);
 fe_vec3 fe__hull_form_centre(const fe__form *form); // of mass, form's frame
+// A point in the middle of any form of its own: a hull's frame may lie anywhere
+static inline fe_vec3 fe__form_middle(const fe__form *form)
+{
+    return fe__form_is_hull(form) ? fe__hull_form_centre(form) : fe__vec3(0.0f, 0.0f, 0.0f);
+}
 
 fe_dvec3 fe__hull_form_vertex(const fe__form *form, int32_t vertex); // form's frame
 // As fe__form_face, when the vertex is known that lies farthest along the direction

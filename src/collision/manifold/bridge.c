@@ -6,8 +6,8 @@
 #include <float.h>
 
 // What lies deeper below the face is not carried by anything level with it, m, and as a share of the body's thickness:
-// a step, and what the body has sunk into what carries it
-#define BELOW 0.02f
+// a step that is not felt, and what the body has sunk into what carries it
+#define BELOW 0.004f
 #define BELOW_SHARE 0.1f
 // What touches the rim is held beyond the gap where another rim is nearer than this share of the distance to it: loads
 // that differ shift what rests on both

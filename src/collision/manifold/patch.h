@@ -9,8 +9,8 @@
 enum {
     FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
                      // no contact is lost
-    FE__NEIGHBOURS = 8,  // other surfaces near the same body
-    FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
+    FE__NEIGHBOURS = 8,   // other surfaces near the same body
+    FE__NEAR_SOLIDS = 16, // other static boxes and hulls near it
 };
 
 // cos 1.8 degrees: of normals of one patch
@@ -18,8 +18,9 @@ enum {
 
 // Points with one normal and one material.
 typedef struct fe__patch {
-    fe_vec3 normal;   // unit, from the surface to B
-    int32_t count;    // 1..4
+    fe_vec3 normal; // unit, from the surface to B
+    fe_vec3 face;   // unit, of the triangle at whose edge it is touched, where that looks the same way; else the normal
+    int32_t count;  // 1..4
     int32_t triangle; // under the deepest point, its number
     fe__manifold_point points[FE_MAX_POINTS];
 } fe__patch;
@@ -45,7 +46,8 @@ typedef struct fe__terrain {
     // Faces whose normals are among these need not be looked at: they are touched already. Points of others may still
     // have such a normal
     const fe_vec3 *known;
-    const fe_dvec3 *known_at; // a point of each, in the surface's frame
+    const fe_vec3 *known_face; // fe__patch.face of each
+    const fe_dvec3 *known_at;  // a point of each, in the surface's frame
     int32_t known_count;
     int32_t is_last; // the look is one at the end of B's way (ground.near)
     float fall;      // m, how far B may have fallen, at the look's pose, below what carries it

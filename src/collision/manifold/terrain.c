@@ -161,6 +161,7 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
         if (b->radius > 0.0f && !g.single) fe__keep_core_ends(raw, rotation->y, g.tie);
         fe__reduce_patch(raw, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal,
+                                 .face = raw->face,
                                  .count = raw->count,
                                  .triangle = fe__ground_number(&t->ground, raw->triangle)};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];

@@ -94,17 +94,26 @@ static int32_t set_separations(const contest *c, axes *a)
     return !(apart & a->valid);
 }
 
+// Of an axis that is no side's the triangle touches with a corner beyond that side: the two edges do not meet there.
+static int32_t is_of_side(const contest *c, int32_t side, fe_vec3 way)
+{
+    const float flat = 1e-3f; // of the triangle's size
+    const fe_vec3 *v = c->tile->form.vertex;
+    return fe__dot(way, fe__sub(v[(side + 2) % 3], v[side])) <= flat * c->tile->size;
+}
+
 // Both ways along an axis
 static void try_axis(contest *c, const axes *a, int32_t i)
 {
     const float level = 1e-3f; // sine: along the face both ways are out of the surface
+    const int32_t is_cross = i >= BOX_AXES, side = is_cross ? i / BOX_AXES - 1 : 0;
     for (int32_t back = 0; back < 2; ++back) {
         float separation = back ? a->back[i] : a->forth[i], up = back ? -a->upward[i] : a->upward[i];
         if (up < -level || separation <= c->best.separation + c->tie) continue;
         fe_vec3 m = {a->x[i], a->y[i], a->z[i]}, way = back ? fe__neg(m) : m;
+        if (is_cross && !is_of_side(c, side, way)) continue;
         if (!fe__tile_feels_along(c->g, c->tile, way, NULL, separation)) continue;
-        int32_t kind = i < BOX_AXES ? ON_BOX_FACE : ON_EDGES, side = i < BOX_AXES ? 0 : i / BOX_AXES - 1;
-        c->best = (axis){kind, i % BOX_AXES, side, way, separation};
+        c->best = (axis){is_cross ? ON_EDGES : ON_BOX_FACE, i % BOX_AXES, side, way, separation};
     }
 }
 

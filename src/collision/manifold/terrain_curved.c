@@ -217,8 +217,9 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
     if (!is_inside && !fe__tile_settles(&f.cut, &f.piece, low.height)) {
         fe__core_touch found;
         if (!find_nearest(&c, &low, &found)) return;
-        if (found.separation > low.height + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
-            fe__dot(found.normal, n) >= 0.0f &&
+        const float level = 1e-3f; // sine: along the face both ways are out of the surface
+        float up = fe__dot(found.normal, n);
+        if (found.separation > low.height + c.tie && up <= FE_FACE_COS && up >= -level &&
             fe__tile_feels_along(g, tile, found.normal, &found.on_a, found.separation)) {
             touch_side(&c, &found);
             return;

@@ -41,6 +41,15 @@ static fe_vec3 on_surface(const fe__raw_patch *patch, int32_t i)
     return fe__add_scaled(patch->points[i].point, -0.5f * patch->points[i].separation, patch->normal);
 }
 
+// Of the points of a patch that are cut from a side face, some lie far below what is touched.
+static fe_vec3 deepest_on_surface(const fe__raw_patch *patch)
+{
+    int32_t deepest = 0;
+    for (int32_t i = 1; i < patch->count; ++i)
+        if (patch->points[i].separation < patch->points[deepest].separation) deepest = i;
+    return on_surface(patch, deepest);
+}
+
 static int32_t is_level_about(const fe__terrain *t, fe_vec3 p, fe_vec3 n, float level, float beside)
 {
     return fe__ground_is_level_about(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(n), (double)level,
@@ -81,26 +90,27 @@ static int32_t is_carried_at(const fe__gathering *g, const fe__raw_patch *patch,
                                    .around = t->around,
                                    .own = &own,
                                    .fall = t->fall,
-                                   .edge = edge,
+                                   .edge = fe__add_scaled(edge, above, out),
                                    .out = out};
     return fe__is_carried_over(&crossing, edge, f, &q, patch->points[i].separation);
 }
 
 // The points of a patch near the carrier's plane, if one of them is carried over to it: where tiles meet in corners,
-// others lie beside them
+// others lie beside them. A face that leans less than a wall is no side of a tile; directions between faces may.
 static uint32_t points_carried(const fe__gathering *g, const fe__raw_patch *patch, const carrier *by)
 {
-    const float steepest = -0.01f; // cosine
-    int32_t is_round = g->form->radius > 0.0f;
-    float flattest = is_round || fe__form_is_curved(g->form) ? 0.9999f : 0.5f,
-          distance = is_round ? EDGE_NEAR : FACE_NEAR;
+    const float steepest = -0.01f, wall = 0.5f, flattest = 0.9999f; // cosines
+    const float touched = 0.001f; // m over the deepest: others are cut from a side face, far below
+    int32_t is_wide = patch->is_of_face && !(g->form->radius > 0.0f || fe__form_is_curved(g->form));
+    float distance = g->form->radius > 0.0f ? EDGE_NEAR : FACE_NEAR;
     uint32_t near = 0, carried = 0;
     float cosine = fe__dot(patch->normal, by->f);
-    if (cosine < steepest || cosine > flattest) return 0;
+    if (cosine < steepest || cosine > (is_wide ? wall : flattest)) return 0;
     for (int32_t i = 0; i < patch->count; ++i) {
         if (fe__absf(height_over(patch, i, by)) > distance) continue;
         near |= 1u << i;
-        if (!carried) carried = (uint32_t)is_carried_at(g, patch, i, by);
+        if (!carried && patch->points[i].separation <= patch->deepest + touched)
+            carried = (uint32_t)is_carried_at(g, patch, i, by);
     }
     return carried ? near : 0;
 }
@@ -111,19 +121,34 @@ static uint32_t points_carried_by_any(const fe__gathering *g, const fe__raw_patc
     uint32_t carried = 0;
     for (int32_t k = 0; k < g->count; ++k) {
         const fe__raw_patch *other = g->patches + k;
-        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->normal, on_surface(other, 0)});
+        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->face, deepest_on_surface(other)});
     }
     for (int32_t k = 0; k < t->known_count; ++k)
-        carried |= points_carried(g, patch, &(carrier){t->known[k], fe__narrow(fe__dsub(t->known_at[k], t->origin))});
+        carried |=
+            points_carried(g, patch, &(carrier){t->known_face[k], fe__narrow(fe__dsub(t->known_at[k], t->origin))});
     return carried;
+}
+
+// The rims on both sides of what is round carry each other: where nothing else is touched, the one stays that is
+// nearest to its touch.
+static void keep_one_that_carries(const fe__gathering *g, uint32_t *carried)
+{
+    int32_t best = 0;
+    if (g->terrain->known_count) return;
+    for (int32_t k = 0; k < g->count; ++k) {
+        if (carried[k] != (1u << g->patches[k].count) - 1u) return;
+        if (fe__absf(g->patches[k].deepest) < fe__absf(g->patches[best].deepest)) best = k;
+    }
+    carried[best] = 0;
 }
 
 void fe__leave_carried(fe__gathering *g)
 {
     uint32_t carried[FE__PATCHES + 1]; // of each patch, a bit for each point
     int32_t count = 0;
-    if (g->count + g->terrain->known_count < 2 || !g->terrain->ground.mesh) return;
+    if (g->count + g->terrain->known_count < 2 || !g->count || !g->terrain->ground.mesh) return;
     for (int32_t k = 0; k < g->count; ++k) carried[k] = points_carried_by_any(g, g->patches + k);
+    keep_one_that_carries(g, carried);
     for (int32_t k = 0; k < g->count; ++k) {
         fe__raw_patch *p = g->patches + k;
         int32_t kept = 0;
@@ -239,9 +264,24 @@ static void merge_most_similar(fe__gathering *g)
         }
     }
     fe__raw_patch *into = g->patches + a, *from = g->patches + b;
-    if (from->deepest < into->deepest) into->normal = from->normal, into->material = from->material;
+    if (from->deepest < into->deepest)
+        into->normal = from->normal, into->is_of_face = from->is_of_face, into->face = from->face,
+        into->material = from->material;
     for (int32_t i = 0; i < from->count; ++i) add_point(g, into, from->points + i, from->triangle);
     *from = g->patches[--g->count];
+}
+
+// An edge is that of two triangles: the face is the one that looks along the normal.
+static void set_face(fe__raw_patch *patch, const fe__tile *tile)
+{
+    const float same_side = 0.9f; // cosine
+    if (fe__dot(patch->normal, tile->normal) > same_side) patch->face = tile->normal;
+}
+
+static void set_normal(fe__raw_patch *patch, const fe__tile *tile, fe_vec3 normal)
+{
+    patch->normal = patch->face = normal;
+    patch->is_of_face = fe__is_along_face(normal, tile->normal);
 }
 
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id)
@@ -251,12 +291,15 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
     for (int32_t i = 0; i < g->count; ++i) {
         fe__raw_patch *patch = g->patches + i;
         if (patch->material != material || fe__dot(patch->normal, normal) < FE__SAME_NORMAL) continue;
-        if (separation < patch->deepest) patch->normal = normal;
+        if (separation < patch->deepest) set_normal(patch, tile, normal);
+        set_face(patch, tile);
         add_point(g, patch, &p, tile->index);
         return;
     }
-    g->patches[g->count++] =
-        (fe__raw_patch){.normal = normal, .triangle = tile->index, .material = material, .deepest = FLT_MAX};
-    add_point(g, g->patches + g->count - 1, &p, tile->index);
+    fe__raw_patch *added = g->patches + g->count++;
+    *added = (fe__raw_patch){.triangle = tile->index, .material = material, .deepest = FLT_MAX};
+    set_normal(added, tile, normal);
+    set_face(added, tile);
+    add_point(g, added, &p, tile->index);
     if (g->count > FE__PATCHES) merge_most_similar(g);
 }

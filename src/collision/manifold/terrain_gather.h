@@ -8,6 +8,8 @@ enum { FE__RAW_POINTS = 16 };
 typedef struct fe__raw_patch {
     fe_vec3 normal;
     int32_t count, triangle, material;
+    int32_t is_of_face; // the normal is that of the triangle
+    fe_vec3 face;       // as fe__patch.face
     float deepest;
     fe__manifold_point points[FE__RAW_POINTS];
 } fe__raw_patch;

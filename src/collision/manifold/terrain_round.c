@@ -75,6 +75,17 @@ static void nearest_of(const fe_vec3 ends[2], fe_vec3 start, fe_vec3 side, float
     *s = a > 0.0f ? fe__clampf((b * *u - c) / a, 0.0f, 1.0f) : 0.0f;
 }
 
+// Is the core's point beyond no side by more than the surface goes on across? Then it may be over no triangle at all
+static int32_t is_over_seam(const fe__tile *tile, fe_vec3 core)
+{
+    const fe_vec3 *v = tile->form.vertex;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]), out = fe__cross(side, tile->normal);
+        if (fe__dot(out, fe__sub(core, v[k])) > fe__tile_goes_on(tile) * fe__length(side)) return 0;
+    }
+    return 1;
+}
+
 static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const fe_vec3 ends[2], float radius)
 {
     const fe_vec3 start = tile->form.vertex[k], side = fe__sub(tile->form.vertex[(k + 1) % 3], start);
@@ -88,7 +99,12 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     if (fe__dot(lean, lean) <= flat * flat) m = tile->normal;
     // Where core and side nearly run alike, rounding shifts their nearest points: what leans inwards is over the face
     if (fe__dot(m, fe__sub(tile->form.vertex[(k + 2) % 3], start)) > flat * tile->size) return;
-    if (fe__dot(m, tile->normal) < 0.0f || !fe__tile_feels_along(g, tile, m, &q, distance - radius)) return;
+    if (fe__dot(m, tile->normal) < -flat) return;
+    int32_t is_seam = g->terrain->ground.mesh && is_over_seam(tile, core_point(ends, s));
+    if (is_seam && !fe__tile_allows(g->terrain, tile, m))
+        m = tile->normal;
+    else if (!fe__tile_feels_along(g, tile, m, &q, distance - radius))
+        return;
 
     // along the side the core has two points, else the nearest
     fe_vec3 d = fe__sub(ends[1], ends[0]);

@@ -142,15 +142,11 @@ static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p)
     return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p)));
 }
 
-// What is so near to a point goes on from it: a share of a triangle's size, and m
-#define NEAR_SHARE 1e-4f
-#define NEAR 1e-3f
-
 // Does a neighbour go on at p and rise along m?
 static int32_t goes_on(const fe__neighbour *n, fe_vec3 p, fe_vec3 m, float near)
 {
     return fe__ground_rises(&n->ground, into(n, p), fe__widen(fe__mul_transposed(&n->axes, m)),
-                            (double)fe__minf(near, NEAR));
+                            (double)fe__minf(near, FE__GOES_ON));
 }
 
 static int32_t solid_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 m)
@@ -183,7 +179,7 @@ static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_
     for (int32_t i = 0; i < t->around->ground_count; ++i) {
         const fe__neighbour *n = t->around->grounds + i;
         if (n->ground.mesh) {
-            if (goes_on(n, p, m, NEAR_SHARE / (float)BEYOND * fe__length(way))) return 1;
+            if (goes_on(n, p, m, FE__GOES_ON_SHARE / (float)BEYOND * fe__length(way))) return 1;
             continue;
         }
         fe_dvec3 here = into(n, p), there = into(n, fe__add(p, way));
@@ -242,7 +238,7 @@ static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t
 // ---- cones of a mesh -----------------------------------------------------------------------------------------------
 static int32_t mesh_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 p, fe_vec3 m)
 {
-    float near = fe__minf(NEAR_SHARE * tile->size, NEAR);
+    float near = fe__tile_goes_on(tile);
     if (fe__ground_rises(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(m), (double)near)) return 0;
     for (int32_t i = 0; i < t->around->ground_count; ++i)
         if (goes_on(t->around->grounds + i, p, m, near)) return 0;

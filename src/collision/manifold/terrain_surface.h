@@ -19,6 +19,14 @@ int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int
 // The triangle of a heightfield beyond side k, -1: a hole or the border. A mesh does not tell: -1.
 int32_t fe__tile_beyond(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 
+// What is so near to a point of a triangle goes on from it: a share of its size, and m
+#define FE__GOES_ON_SHARE 1e-4f
+#define FE__GOES_ON 1e-3f
+static inline float fe__tile_goes_on(const fe__tile *tile)
+{
+    return fe__minf(FE__GOES_ON_SHARE * tile->size, FE__GOES_ON);
+}
+
 // Is the tile one of a face that is known (fe__terrain.known), and all that it could show beside that its neighbours'
 // to show? Who lies on a triangle beyond whose sides nothing goes on may be about to leave it.
 int32_t fe__tile_is_known(const fe__terrain *terrain, const fe__tile *tile);
