@@ -2,7 +2,7 @@
 # `limit` set: a folder, and seconds of processor time for one job.
 #
 # A check is a job: a name and a command. It passes when the command does, and then counts as many as cmocka's summaries in its output say, or 1.
-# Output is kept in $out/log. Jobs run side by side, one on each processor; finish prints "N passed, M failed".
+# Output is kept in $out/log. Jobs run side by side, one on each processor; finish names what failed and prints "N passed, M failed".
 set -uo pipefail
 export CC=${CC:-cc} CXX=${CXX:-c++} MAKE=${MAKE:-make}
 export LC_ALL=C.UTF-8 # times with a point, whatever the user's language
@@ -16,6 +16,7 @@ rm -rf "$logs"
 mkdir -p "$logs"
 if test -z "${HOME:-}"; then export HOME=$PWD/$out/home; mkdir -p "$HOME"; fi # dotnet, luarocks and love want one
 : > "$results"
+: > "$results.failed" # their names
 
 # report name seconds status log: prints the line and counts the test cases, which cmocka's summary tells
 report() {
@@ -35,7 +36,12 @@ report() {
         printf 'FAIL  %-44s %6.1f s  %d of %d failed%s\n%s\n' "$1" "$2" "$failed" "$((passed + failed))" "$note" \
             "$(grep -vE '^\[ +(RUN|OK) +\]|^  [^ ]+$' "$4" | awk '
                 { line[NR] = $0 }
-                END { for (i = 1; i <= NR; ++i) if (i <= 30 || i > NR - 10) print "      | " line[i]; else if (i == 31) print "      | ..." }')"
+                /FAILED|rror:|Sanitizer|^failed/ && told < 12 { print "      | " $0; ++told }
+                END {
+                    if (told) print "      | ..."
+                    for (i = 1; i <= NR; ++i) if (i <= 15 || i > NR - 10) print "      | " line[i]; else if (i == 16) print "      | ..."
+                }')"
+        echo "$1" >> "$results.failed"
     fi
     echo "$passed $failed" >> "$results"
 }
@@ -74,6 +80,7 @@ programs() {
 finish() {
     local passed failed
     read -r passed failed < <(awk '{ p += $1; f += $2 } END { print p + 0, f + 0 }' "$results")
+    if test -s "$results.failed"; then sed 's/^/failed: /' "$results.failed"; fi
     echo "$passed passed, $failed failed"
     test "$failed" = 0 && test "$passed" != 0
     exit

@@ -6,6 +6,7 @@
 #include "core/os_thread.h"
 #include "core/threads.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <time.h>
@@ -314,17 +315,20 @@ static double processor_time(void)
 }
 
 // 7 idle threads would use 7 times 0.2 s, or all of the cores there are; asleep they use nothing. Bound: a tenth of one
-// core.
+// core. Where other programs hold the cores, the spinning after the run ends late: one quiet window of 20 is enough.
 static void an_idle_pool_burns_no_core(void **state)
 {
     (void)state;
     fe_pool *pool = crowded_pool(8);
     tally t = {0};
     fe__pool_run(pool, mark, &t, 8);
-    usleep(20000); // the spinning after the run
-    double before = processor_time();
-    usleep(200000);
-    FE_WITHIN(processor_time() - before, 0.0, 0.02);
+    double least = INFINITY;
+    for (int window = 0; window < 20 && least > 0.02; ++window) {
+        double before = processor_time();
+        usleep(200000);
+        least = fmin(least, processor_time() - before);
+    }
+    FE_WITHIN(least, 0.0, 0.02);
     fe__pool_destroy(pool);
 }
 
@@ -337,8 +341,8 @@ static void the_clock_never_goes_back(void **state)
         assert_true(now >= last);
         last = now;
     }
-    usleep(1000);
-    FE_WITHIN(fe__clock() - start, 0.001, 60.0);
+    usleep(20000); // Windows may wake a sleeper a tick early, 15.6 ms
+    FE_WITHIN(fe__clock() - start, 0.004, 60.0);
 }
 
 // ---- signals -------------------------------------------------------------------------------------------------------
