@@ -330,7 +330,8 @@ static void end(soak *s)
     assert_int_equal(s->memory.wrong, 0);
 }
 
-// Flat: what the same minute holds, the second time and the last, differs by 1 %. The first one finds nothing yet.
+// Flat: the same minute holds no more the last time than the second, but for 1 %. The first one finds nothing yet. It
+// may hold less: an array that another minute let grow by an eighth gives that back when it is emptied.
 static void a_world_of_a_day_is_as_small_as_one_of_a_minute(void **state)
 {
     (void)state;
@@ -346,7 +347,7 @@ static void a_world_of_a_day_is_as_small_as_one_of_a_minute(void **state)
         live_a_minute(&s, same ? seed_asked : seed_asked + (uint32_t)i * 7919u, same ? BODIES : BODIES / 2,
                       last ? step_of_an_old_world : step_uncounted);
         if (!same) continue;
-        FE_WITHIN((double)s.memory.bytes / (double)bytes, 0.99, 1.01);
+        FE_WITHIN((double)s.memory.bytes / (double)bytes, 1 / 1.125, 1.01);
         FE_TRUE(poses_of(&s) == hash); // it was the same minute
     }
     print_message("%d minutes: %lld bytes after the second, %lld after the last; %lld and %lld at most\n", (int)minutes,
