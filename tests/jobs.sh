@@ -7,6 +7,10 @@ set -uo pipefail
 export CC=${CC:-cc} CXX=${CXX:-c++} MAKE=${MAKE:-make}
 export LC_ALL=C.UTF-8 # times with a point, whatever the user's language
 unset MAKEFLAGS MFLAGS MAKELEVEL # each build below says itself what it wants
+# Many checks compile the same sources alike, each in a folder of its own: where there is ccache, they are compiled once.
+if test -d /usr/lib/ccache && test -z "${CCACHE_DIR:-}"; then
+    export PATH=/usr/lib/ccache:$PATH CCACHE_DIR=$PWD/build/ccache CCACHE_NOHASHDIR=1
+fi
 jobs=$(nproc 2> /dev/null || echo 2)
 export limit stall=600 # stall: seconds of the clock, after which a job that computes nothing hangs
 export logs=$out/log results=$out/results # folder; file with "passed failed" lines

@@ -102,6 +102,8 @@ missing_for_examples() { pkg-config --exists assimp 2> /dev/null || echo libassi
 # A page for the JavaScript package; likewise
 missing_for_browser() { has chromium || echo chromium; }
 missing_for_abi() { has abidiff || echo abigail-tools; }
+# What compiles once what several tests compile alike; likewise
+missing_for_cache() { has ccache || echo ccache; }
 
 # Another machine's bits, in an emulator; without it the tests say so and go on
 missing_for_aarch64() {
@@ -138,7 +140,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_windows; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; missing_for_amalgamation; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_windows; missing_for_browser; missing_for_docs; missing_for_abi; missing_for_cache; missing_for_hulls; missing_for_examples; missing_for_amalgamation; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
