@@ -239,8 +239,8 @@ GOLDEN: Dict[str, int] = {
     "BallOnPlate": 0x55C0A4A697736B6C,
     "CartPole": 0xE02C34B0EBD55290,
     "Push": 0x2C7E19237C4AD85E,
-    "Ragdoll": 0x668FD7655AC3A06A,
-    "Walker": 0x74A4DDE4E74E0DFC,
+    "Ragdoll": 0xDDFFFAAA4C3D8EE0,
+    "Walker": 0xB2C12230809C2508,
 }
 
 
