@@ -155,8 +155,7 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, float
     fe__solid a = {.form = &v->a->form, .axes = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
     fe__solid b = {.form = &v->b->form, .centre = v->relative.position, .axes = v->relative.rotation};
     s.solid = solid_is_a ? a : b, s.other = solid_is_a ? b : a;
-    fe_vec3 middle = fe__mul(&s.other.axes, fe__form_middle(s.other.form));
-    fe__find_surroundings(world, v, solid, other, fe__add(s.other.centre, middle), &s.around);
+    fe__find_surroundings(world, v, solid, other, fe__solid_middle(&s.other), &s.around);
     if (!(s.around.solid_count | s.around.ground_count)) return;
     float sign = solid_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];

@@ -74,24 +74,34 @@ static int32_t place_for(float distance, float *distances, int32_t *count, int32
     return place;
 }
 
+// How far off is what may hold a body up? What is round is held from as far beyond its lowest point as the rim that it
+// touches lies on this side. m2
+static float farthest_that_holds(const fe__form *form)
+{
+    const float wide = 2.0f;
+    float reach = wide * fe__form_reach(form, fe__form_middle(form));
+    return reach * reach;
+}
+
 void fe__find_surroundings(const fe_world *w, const fe__view *v, const fe__shape *self, const fe__shape *other,
                            fe_vec3 centre, fe__surroundings *found)
 {
-    // What is round is held up from as far beyond its lowest point as the rim that it touches lies on this side
-    const float wide = 2.0f;
-    float reach = wide * fe__form_reach(&other->form, fe__form_middle(&other->form)), most = reach * reach;
+    float most = -1.0f; // m2, asked for once something is there: of a hull that is a walk of its vertices
     float grounds[FE__NEIGHBOURS], solids[FE__NEAR_SOLIDS]; // their distances, m2
     found->ground_count = found->solid_count = 0;
     for (int32_t pair = w->bodies[other->body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, other->body)) {
         const fe__pair *p = w->pairs + pair;
         const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *near = x == other ? y : x;
         if (p->flags & FE__PAIR_PATCH || near == self || (x != other && y != other)) continue;
-        if (p->next_patch >= 0) {
+        int32_t is_ground = p->next_patch >= 0;
+        if (!is_ground && !fe__is_static_solid(w, near)) continue;
+        if (most < 0.0f) most = farthest_that_holds(&other->form);
+        if (is_ground) {
             fe__neighbour n = place_ground(w, v, near);
             float distance = distance_of_ground(&n, centre);
             int32_t place = distance > most ? -1 : place_for(distance, grounds, &found->ground_count, FE__NEIGHBOURS);
             if (place >= 0) found->grounds[place] = n;
-        } else if (fe__is_static_solid(w, near)) {
+        } else {
             fe__solid s = place_solid(v, near);
             float distance = distance_of_solid(&s, centre);
             int32_t place = distance > most ? -1 : place_for(distance, solids, &found->solid_count, FE__NEAR_SOLIDS);

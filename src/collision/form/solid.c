@@ -35,14 +35,7 @@ float fe__solid_height(const fe__solid *s, int32_t face)
     return fe__dot(fe__solid_normal(s, face), s->centre) + local_height(s->form, face);
 }
 
-// The origin of a hull may lie outside of it, its centre of mass may not
-fe_vec3 fe__solid_middle(const fe__solid *s)
-{
-    const fe__form *form = s->form;
-    if (!fe__form_is_hull(form)) return s->centre;
-    fe_vec3 middle = fe__add_scaled(form->offset, form->scale, fe__narrow(form->hull->mass.centre));
-    return fe__add(s->centre, fe__mul(&s->axes, middle));
-}
+fe_vec3 fe__solid_middle(const fe__solid *s) { return fe__add(s->centre, fe__mul(&s->axes, fe__form_middle(s->form))); }
 
 int32_t fe__solid_face_below(const fe__solid *s, int32_t face, fe_vec3 p, float least)
 {

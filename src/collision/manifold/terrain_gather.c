@@ -95,17 +95,22 @@ static int32_t is_carried_at(const fe__gathering *g, const fe__raw_patch *patch,
     return fe__is_carried_over(&crossing, edge, f, &q, patch->points[i].separation);
 }
 
-// The points of a patch near the carrier's plane, if one of them is carried over to it: where tiles meet in corners,
-// others lie beside them. A face that leans less than a wall is no side of a tile; directions between faces may.
-static uint32_t points_carried(const fe__gathering *g, const fe__raw_patch *patch, const carrier *by)
+// May the carrier of a face with the normal f hold what touches the patch? A face that leans less than a wall is no
+// side of a tile; directions between faces may.
+static int32_t may_be_carried(const fe__raw_patch *patch, fe_vec3 f)
 {
     const float steepest = -0.01f, wall = 0.5f, flattest = 0.9999f; // cosines
+    float cosine = fe__dot(patch->normal, f);
+    return cosine >= steepest && cosine <= (patch->is_of_face ? wall : flattest);
+}
+
+// The points of a patch near the carrier's plane, if one of them is carried over to it: where tiles meet in corners,
+// others lie beside them.
+static uint32_t points_carried(const fe__gathering *g, const fe__raw_patch *patch, const carrier *by)
+{
     const float touched = 0.001f; // m over the deepest: others are cut from a side face, far below
-    int32_t is_wide = patch->is_of_face && !(g->form->radius > 0.0f || fe__form_is_curved(g->form));
     float distance = g->form->radius > 0.0f ? EDGE_NEAR : FACE_NEAR;
     uint32_t near = 0, carried = 0;
-    float cosine = fe__dot(patch->normal, by->f);
-    if (cosine < steepest || cosine > (is_wide ? wall : flattest)) return 0;
     for (int32_t i = 0; i < patch->count; ++i) {
         if (fe__absf(height_over(patch, i, by)) > distance) continue;
         near |= 1u << i;
@@ -121,11 +126,14 @@ static uint32_t points_carried_by_any(const fe__gathering *g, const fe__raw_patc
     uint32_t carried = 0;
     for (int32_t k = 0; k < g->count; ++k) {
         const fe__raw_patch *other = g->patches + k;
-        if (other != patch) carried |= points_carried(g, patch, &(carrier){other->face, deepest_on_surface(other)});
+        if (other != patch && may_be_carried(patch, other->face))
+            carried |= points_carried(g, patch, &(carrier){other->face, deepest_on_surface(other)});
     }
-    for (int32_t k = 0; k < t->known_count; ++k)
+    for (int32_t k = 0; k < t->known_count; ++k) {
+        if (!may_be_carried(patch, t->known_face[k])) continue;
         carried |=
             points_carried(g, patch, &(carrier){t->known_face[k], fe__narrow(fe__dsub(t->known_at[k], t->origin))});
+    }
     return carried;
 }
 
@@ -145,9 +153,11 @@ static void keep_one_that_carries(const fe__gathering *g, uint32_t *carried)
 void fe__leave_carried(fe__gathering *g)
 {
     uint32_t carried[FE__PATCHES + 1]; // of each patch, a bit for each point
+    uint32_t any = 0;
     int32_t count = 0;
     if (g->count + g->terrain->known_count < 2 || !g->count || !g->terrain->ground.mesh) return;
-    for (int32_t k = 0; k < g->count; ++k) carried[k] = points_carried_by_any(g, g->patches + k);
+    for (int32_t k = 0; k < g->count; ++k) any |= carried[k] = points_carried_by_any(g, g->patches + k);
+    if (!any) return;
     keep_one_that_carries(g, carried);
     for (int32_t k = 0; k < g->count; ++k) {
         fe__raw_patch *p = g->patches + k;
