@@ -140,6 +140,7 @@ static void take_points(fe__build *b, int32_t pair, const fe__touching_row *row,
     m->colour = row->colour;
     m->point_count = row->point_count;
     memcpy(m->span, row->span, sizeof m->span);
+    w->pairs[pair].left_out = (uint8_t)row->left_out;
     fe__take_row(b->snapshot, FE__TABLE_POINTS, number, w->points + points);
     fe__take_row(b->snapshot, FE__TABLE_FEATURES, number, w->features + points);
     if (fe__rows_of(b->snapshot, FE__TABLE_EXTRAS))
@@ -183,7 +184,7 @@ static int32_t take_pair(fe__build *b, int32_t pair, taken *t)
     if (!check_shapes(b, pair) || !check_triangle(b, pair)) return 0;
     take_contact(b, pair, t);
     if (!check_contact(b, pair)) return 0;
-    p->events = (uint16_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
+    p->events = (uint8_t)(w->shapes[p->shape_a].events | w->shapes[p->shape_b].events);
     p->links[0].previous = p->links[1].previous = is_listed(p) ? UNMET : -1;
     t->links += is_listed(p) ? 2 : 0;
     fe__pair_note_colour(w, w->contacts + pair);

@@ -49,6 +49,7 @@ typedef enum fe__range_number {
     FE__RANGE_JOINT_KIND,
     FE__RANGE_SUBSTEPS,
     FE__RANGE_EVENT_KIND,
+    FE__RANGE_LEFT_OUT,
     FE__RANGE_GENERATION,
     FE__RANGE_SLOT_STATE, // fe__id_slot.next
     FE__RANGES

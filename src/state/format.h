@@ -13,7 +13,7 @@
 #include "state/table.h"
 
 enum {
-    FE__SNAPSHOT_MAJOR = 2,
+    FE__SNAPSHOT_MAJOR = 3,
     FE__SNAPSHOT_MINOR = 0,
     FE__RESULTS = 1, // grows when the same calls give other bits
     FE__SNAPSHOT_HEADER = 48,

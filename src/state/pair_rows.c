@@ -70,8 +70,8 @@ ROWS(touching, points_in_use(world), next_with_points(world, place))
 static const void *touching_at(const fe_world *world, int32_t place, void *room)
 {
     const fe__contact *m = world->contacts + place;
-    *(fe__touching_row *)room =
-        (fe__touching_row){place, m->colour, m->point_count, {m->span[0], m->span[1], m->span[2]}};
+    *(fe__touching_row *)room = (fe__touching_row){
+        place, m->colour, m->point_count, {m->span[0], m->span[1], m->span[2]}, world->pairs[place].left_out};
     return room;
 }
 ROWS(points, points_in_use(world), next_with_points(world, place))

@@ -119,9 +119,10 @@ typedef struct fe__patch_row { // what fe__pair has for patches
     int32_t slot, next_patch, head, triangle;
 } fe__patch_row;
 
-typedef struct fe__touching_row { // what fe__contact has for points
+typedef struct fe__touching_row { // what fe__contact and fe__pair have for points
     int32_t slot, colour;
     float point_count, span[3];
+    int32_t left_out;
 } fe__touching_row;
 
 typedef struct fe__owed_row {

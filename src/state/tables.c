@@ -39,6 +39,7 @@ const fe__range fe__ranges[FE__RANGES] = {
     [FE__RANGE_JOINT_KIND] = {1.0, FE__JOINT_TYPES - 1},
     [FE__RANGE_SUBSTEPS] = {1.0, 64.0},
     [FE__RANGE_EVENT_KIND] = {0.0, 255.0},
+    [FE__RANGE_LEFT_OUT] = {FE_LEFT_NONE, FE_LEFT_REST},
     [FE__RANGE_GENERATION] = {1.0, FE_ID_LAST_GENERATION},
     [FE__RANGE_SLOT_STATE] = {FE_ID_HIDDEN, FE_ID_MAX_SLOTS},
 };
@@ -139,7 +140,8 @@ const fe__range fe__ranges[FE__RANGES] = {
 #define PAIR(T, S, R, P) \
     S(T, shape_a, I32, INDEX) S(T, shape_b, I32, INDEX) R(T, body_a) R(T, body_b) \
     S(T, links[0].next, I32, LINK) R(T, links[0].previous) S(T, links[1].next, I32, LINK) R(T, links[1].previous) \
-    S(T, flags, U32, ANY) R(T, events) /* of its shapes */ R(T, result) /* within a step */ \
+    S(T, flags, U32, ANY) R(T, events) /* of its shapes */ R(T, left_out) /* with the points */ \
+    R(T, result) /* within a step */ \
     R(T, next_patch) /* a table of its own */ R(T, awake_index) S(T, axis, I32, LINK) \
     S(T, axis_separation, F32, FINITE) R(T, head) R(T, triangle)
 
@@ -153,7 +155,8 @@ const fe__range fe__ranges[FE__RANGES] = {
     S(T, slot, I32, INDEX) S(T, next_patch, I32, LINK) S(T, head, I32, LINK) S(T, triangle, I32, LINK)
 
 #define TOUCHING(T, S, R, P) \
-    S(T, slot, I32, INDEX) S(T, colour, I32, COLOUR) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE)
+    S(T, slot, I32, INDEX) S(T, colour, I32, COLOUR) S(T, point_count, F32, COUNT) S(T, span, F32, FINITE) \
+    S(T, left_out, I32, LEFT_OUT)
 
 #define POINTS(T, S, R, P) \
     S(T, separation, F32, FINITE) S(T, normal_impulse, F32, FINITE) S(T, friction_impulse, F32, FINITE) \
@@ -244,7 +247,7 @@ const fe__range fe__ranges[FE__RANGES] = {
         (void)r;                                                                           \
         return doubts >> 31;                                                               \
     }                                                                                      \
-    _Static_assert(name##_size > 0, #name " has no state")
+    _Static_assert(name##_size > 0 && name##_size % 4 == 0, #name " are whole words, as differences need")
 
 DEFINE(world_fields, fe__world_row, WORLD);
 DEFINE(slot_fields, fe__id_slot, SLOT);

@@ -7,6 +7,7 @@
 
 #include "step/collide_stage.h"
 #include "step/encounters.h"
+#include "step/load.h"
 #include "world/encounter.h"
 #include "world/handles.h"
 #include "world/pair_list.h"
@@ -66,6 +67,13 @@ void fe__add_hit(fe_world *w, int32_t pair, const fe__hit_impact *sum)
                                  .triangle_b = e.field_a ? -1 : e.triangle}};
 }
 
+// What the points that were kept hardly hold is looked at again in the next step, all patches of a pair at once
+static void outgrow(fe_world *w, int32_t head)
+{
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch)
+        if (w->pairs[pair].left_out && fe__load_outgrows(w, pair)) w->contacts[head].surface.tolerance = 0.0f;
+}
+
 // ---- looking, on any thread: pairs that have something to report go to the list of results -------------------------
 enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
 
@@ -85,7 +93,7 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     const look_job *job = argument;
     const fe__step *step = job->step;
-    const fe_world *w = step->world;
+    fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
@@ -93,6 +101,7 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         fe__pair *p = w->pairs + pair;
         fetch_ahead(w, job->pairs, i, end);
         if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_REPORT)) continue;
+        if (p->left_out || p->next_patch >= 0) outgrow(w, pair);
         int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
         p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, reports = now != before;

@@ -9,6 +9,7 @@
 #include "collision/manifold/collide.h"
 #include "core/simd.h"
 #include "step/ahead.h"
+#include "step/load.h"
 #include "step/narrow_seam.h"
 #include "world/encounter.h"
 #include "world/points.h"
@@ -21,6 +22,8 @@
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 #define RECYCLE_ROUND 0.0005f
+// of a rim that stands, whose points are where its load leans
+#define RECYCLE_AIMED 0.03f
 
 // Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide
 // ground) in double.
@@ -97,6 +100,7 @@ static void predict_there(const fe__step *step, const fe__contact *m, const fe__
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
+    out->found.load = fe__load_of(world, (int32_t)(m - world->contacts), at, &out->v);
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, fall, &out->found);
 }
@@ -285,11 +289,12 @@ static void step_back(fe__contact *m, fe__points *q, const fe__places *at, const
         q->separation[i] = q->point[i].separation + constant + fe__dot(slope, fe__quad_vector(q->point[i].arm));
 }
 
-float fe__recycle_tolerance(const fe__view *v)
+float fe__recycle_tolerance(const fe__view *v, int32_t left_out)
 {
-    if (fe__form_roundness(&v->a->form) > 0.0f || fe__form_roundness(&v->b->form) > 0.0f) return RECYCLE_ROUND;
-    return fe__minf(RECYCLE_MOST,
-                    RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
+    int32_t is_round = fe__form_roundness(&v->a->form) > 0.0f || fe__form_roundness(&v->b->form) > 0.0f;
+    if (is_round && left_out != FE_LEFT_REST) return RECYCLE_ROUND;
+    float least = fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form));
+    return fe__minf(RECYCLE_MOST, (is_round ? RECYCLE_AIMED : RECYCLE_SHARE) * least);
 }
 
 // A manifold's normal points away from fe__collide's A; the solver's A may be the other one. What leans so little
@@ -468,6 +473,7 @@ static int32_t collide(const fe__step *step, int32_t pair, fe__apart *apart, int
     fe__manifold found; // its points stay unwritten
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     if (p->axis >= 0) found.last = kernels_normal(m, &v);
+    found.load = fe__load_of(world, pair, &at, &v);
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     int32_t passing = passed && found.count; // a seam may take points away from what passes
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), 0.0f, &found);
@@ -493,10 +499,11 @@ static int32_t collide(const fe__step *step, int32_t pair, fe__apart *apart, int
     }
     p->axis_separation = axis_separation;
     p->axis = axis;
+    p->left_out = (uint8_t)found.left_out;
     if (!m->points) fe__points_take(world, pair);
     match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found,
                    hands_on(m, &v, &found));
-    float tolerance = fe__recycle_tolerance(&v);
+    float tolerance = fe__recycle_tolerance(&v, found.left_out);
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);

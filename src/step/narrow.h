@@ -87,7 +87,7 @@ void fe__drop_points(fe_world *world, int32_t pair);
 // how far the pair can close in the step, m
 float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b);
 // how far a manifold with points may slide or turn before it is looked for anew, m
-float fe__recycle_tolerance(const fe__view *v);
+float fe__recycle_tolerance(const fe__view *v, int32_t left_out);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.
 void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at,
                         const fe__manifold *found, int32_t ahead);

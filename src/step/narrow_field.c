@@ -9,6 +9,7 @@
 #include "collision/form/hull_form.h"
 #include "collision/manifold/terrain.h"
 #include "collision/manifold/terrain_course.h"
+#include "step/load.h"
 #include "step/narrow.h"
 #include "step/surroundings.h"
 #include "world/pair_mix.h"
@@ -27,6 +28,7 @@ typedef struct look {
 
 typedef struct pair_view {
     const fe_world *world;
+    int32_t pair;          // the head
     const fe__body *a, *b; // the solver's
     const fe__shape *field, *other;
     fe_vec3 known[FE__PATCHES], known_face[FE__PATCHES]; // normals of what touches now, the field's frame
@@ -115,6 +117,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     fe__find_surroundings(w, &l->v, p->field, p->other, fe__mul(&rotation, fe__form_middle(&p->other->form)), &around);
     fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     l->v.relative.rotation = rotation;
+    terrain.load = fe__load_of(w, p->pair, &l->at, &l->v);
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
 
@@ -238,6 +241,7 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
         if (!m->points) fe__points_take(world, record);
         copy_impulses(x, old, fe__points_of(world, m), world->features + m->points, fe__extra_of(world, m));
     }
+    p->left_out = x->patch ? (uint8_t)x->patch->left_out : 0;
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
     m->surface.tolerance = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
     if (l != now) m->surface.tolerance = FE__AHEAD; // the head's tolerance is 0 then
@@ -319,6 +323,7 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
     pair_view view = {.world = world,
+                      .pair = head,
                       .a = world->bodies + m->body_a,
                       .b = world->bodies + m->body_b,
                       .field = swapped ? y : x,
@@ -350,7 +355,10 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
             count = add_new_directions(plans, count, &then);
         }
     }
-    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__slack(gap, margin);
+    float tolerance = ahead ? 0.0f
+                      : now.count
+                          ? fe__recycle_tolerance(&now.v, now.count == 1 ? now.patches[0].left_out : FE_LEFT_NONE)
+                          : fe__slack(gap, margin);
     if (!count && now.count) tolerance = 0.0f;
     write_records(world, head, plans, count, &now, tolerance);
 }

@@ -105,7 +105,7 @@ static void touch_face(const seam *s, fe_vec3 f, float sign, fe__manifold *found
     // what is over a gap that counts as flush is over both faces, or it would be over none
     const float slack = FE__FLUSH, tie = 5e-5f; // m
     int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, slack);
-    found->count = fe__keep_near(vertex, count, s->other.form->radius, s->margin, tie);
+    found->count = fe__keep_near(vertex, count, s->other.form->radius, s->margin, tie, NULL, NULL);
     if (found->count) found->normal = fe__scale(sign, f);
     for (int32_t i = 0; i < found->count; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(reference.vertex[0], vertex[i].u, frame.x), vertex[i].v, frame.y);

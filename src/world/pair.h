@@ -41,7 +41,8 @@ typedef struct fe__pair {
     fe__link links[2]; // in the lists of body A and body B
     // what the search for events reads of every pair, together
     uint32_t flags;      // FE__PAIR_*
-    uint16_t events;     // fe_shape_events of either shape
+    uint8_t events;      // fe_shape_events of either shape
+    uint8_t left_out;    // of its faces, beside the points: FE_LEFT_*
     int16_t result;      // FE__RESULT_*, or the kind of an event
     int32_t next_patch;  // of the same pair, -1: none
     int32_t awake_index; // place in the list of awake pairs, -1: both sides sleep

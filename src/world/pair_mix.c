@@ -80,7 +80,7 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     if (p->next_patch >= 0) fe__pair_mix(world, p->next_patch);
-    p->events = (uint16_t)(world->shapes[p->shape_a].events | world->shapes[p->shape_b].events);
+    p->events = (uint8_t)(world->shapes[p->shape_a].events | world->shapes[p->shape_b].events);
     world->wants_hits |= (p->events & FE_SHAPE_EVENTS_HIT) != 0;
     int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
     world->row_kinds |= 1u << kind;

@@ -55,4 +55,5 @@ void fe__points_release(fe_world *world, int32_t pair)
     atomic_store_explicit(&world->point_count, last, memory_order_relaxed);
     world->point_order[last] = m->points;
     m->points = 0;
+    world->pairs[pair].left_out = 0;
 }

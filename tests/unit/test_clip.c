@@ -105,7 +105,7 @@ static void four_points_keep_the_deepest_and_most_of_the_area(void **state)
         int32_t n = fe__clip_rectangle(&f.incident, f.half_u, f.half_v, SLACK, 1e30f, all);
         if (n < 4) continue;
         memcpy(four, all, sizeof all);
-        int32_t m = fe__reduce_to_four(four, n, tie);
+        int32_t m = fe__reduce_to_four(four, n, tie, NULL, NULL);
         FE_WITHIN(m, 2, 4);
         float low = INFINITY, kept = INFINITY;
         for (int32_t k = 0; k < n; ++k) low = fe__minf(low, all[k].height);
@@ -124,7 +124,7 @@ static void what_carries_is_kept(void **state)
         float first = (float)uniform(-0.002, -0.0005), second = (float)uniform(-0.002, -0.0005);
         fe__clip_vertex p[6] = {{-0.2f, -0.1f, first, 1},  {-0.2f, 0.1f, 0.005f, 2}, {-0.17f, -0.12f, second, 3},
                                 {0.2f, -0.15f, 0.004f, 4}, {0.2f, 0.1f, 0.008f, 5},  {0.0f, 0.2f, 0.006f, 6}};
-        int32_t count = fe__reduce_to_four(p, 6, 5e-5f), carry = 0;
+        int32_t count = fe__reduce_to_four(p, 6, 5e-5f, NULL, NULL), carry = 0;
         FE_TRUE(count == 4);
         for (int32_t k = 0; k < count; ++k) carry += p[k].height < 0.0f;
         FE_TRUE(carry == 2);
@@ -181,14 +181,23 @@ static double out_of_both(double u, double v, const fe__disc *disc, const fe__cl
 }
 
 // What is cut lies in both, on the polygon's plane, and reaches as far as both do, but for what a rim reaches out
-// between two of its points: 1 - cos 11.25 degrees of its radius. A disc that lies wholly over the polygon leaves four
-// points.
+// between two of its points: 1 - cos of half the angle between them, of its radius. Those of an aimed rim are up to
+// (180 - 6) / 7 = 24.9 degrees apart. A disc that lies wholly over the polygon leaves four points, up to 90 degrees
+// apart, of an aimed rim 124.3.
 static void a_disc_cuts_what_both_have(void **state)
 {
     (void)state;
-    int32_t whole = 0;
+    const double degree = 3.14159265 / 180.0, half[2][2] = {{11.25 * degree, 45.0 * degree}, // of all, of four
+                                                            {12.43 * degree, 62.15 * degree}};
+    int32_t whole[2] = {0, 0};
     for (int32_t k = 0; k < CASES / 10; ++k) {
-        fe__disc disc = {1.0f, 0.1f, (float)uniform(-0.01, 0.01), (float)uniform(-0.01, 0.01), 3};
+        int32_t aimed = k & 1, low = aimed ? 0 : 3, name = FE_CLIP_SIDE + (aimed ? FE_RIM_POINTS : low);
+        fe__disc disc = {.radius = 1.0f,
+                         .height = 0.1f,
+                         .slope_u = (float)uniform(-0.01, 0.01),
+                         .slope_v = (float)uniform(-0.01, 0.01),
+                         .low = low,
+                         .pattern = aimed ? FE_RIM_AIMED : FE_RIM_LIES};
         fe__clip_vertex polygon[FE_FACE_VERTICES], cut[FE_DISC_VERTICES];
         int32_t count = random_polygon(polygon, &disc), left = fe__clip_disc(&disc, polygon, count, SLACK, 1.0f, cut);
         FE_TRUE(left <= FE_DISC_VERTICES);
@@ -197,16 +206,16 @@ static void a_disc_cuts_what_both_have(void **state)
             float height = disc.height + disc.slope_u * cut[i].u + disc.slope_v * cut[i].v;
             FE_NEAR((double)cut[i].height, (double)height, 1e-5);
         }
-        whole += left == 4 && cut[0].id == fe__clip_id(FE_CLIP_SIDE + 3, FE_CLIP_SIDE + 3);
-        double reach = left == 4 ? cos(0.7854) : cos(0.19635), angle = uniform(0.0, 6.28), du = cos(angle),
-               dv = sin(angle), most = -9.0;
+        whole[aimed] += left == 4 && cut[0].id == fe__clip_id(name, name);
+        double reach = cos(half[aimed][left == 4]), angle = uniform(0.0, 6.28), du = cos(angle), dv = sin(angle),
+               most = -9.0;
         for (int32_t i = 0; i < left; ++i) most = fmax(most, du * (double)cut[i].u + dv * (double)cut[i].v);
         for (int32_t i = 0; i < 100; ++i) {
             double u = uniform(-1.0, 1.0), v = uniform(-1.0, 1.0), along = du * u + dv * v;
             if (out_of_both(u, v, &disc, polygon, count) < 0.0) FE_TRUE(along <= most + 1.0 - reach + 1e-5);
         }
     }
-    FE_TRUE(whole > 10);
+    FE_TRUE(whole[0] > 5 && whole[1] > 5);
 }
 
 int main(void)

@@ -199,11 +199,6 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
 }
 
 // ---- a disc --------------------------------------------------------------------------------------------------------
-#define C1 0.92387953f // cosines of 22.5, 45 and 67.5 degrees
-#define C2 0.70710678f
-#define C3 0.38268343f
-static const float rim_cos[FE_RIM_POINTS] = {1, C1, C2, C3, 0, -C3, -C2, -C1, -1, -C1, -C2, -C3, 0, C3, C2, C1};
-
 // The square of a vertex's distance from the rim's centre, less that of the rim: above 0 outside
 static float outside_by(const fe__clip_vertex *p, float square) { return p->u * p->u + p->v * p->v - square; }
 
@@ -231,9 +226,10 @@ static int32_t cross_rim(const fe__clip_vertex *p, const fe__clip_vertex *q, flo
 
 static fe__clip_vertex rim_point(const fe__disc *disc, int32_t i)
 {
-    float u = disc->radius * rim_cos[i], v = disc->radius * rim_cos[(i + 12) % FE_RIM_POINTS];
-    return (fe__clip_vertex){u, v, disc->height + disc->slope_u * u + disc->slope_v * v,
-                             fe__clip_id(FE_CLIP_SIDE + i, FE_CLIP_SIDE + i)};
+    const float *at = fe__rim_points[disc->pattern == FE_RIM_AIMED][i];
+    float u = disc->radius * at[0], v = disc->radius * at[1];
+    int32_t name = FE_CLIP_SIDE + i + (disc->pattern == FE_RIM_AIMED ? FE_RIM_POINTS : 0);
+    return (fe__clip_vertex){u, v, disc->height + disc->slope_u * u + disc->slope_v * v, fe__clip_id(name, name)};
 }
 
 // The line of a polygon's edge: its unit normal points out of the polygon, its distance counts from the rim's centre.
@@ -265,9 +261,13 @@ static int32_t is_over(const fe__clip_vertex *p, const edge_line *line, int32_t 
 static int32_t whole_rim(const fe__disc *disc, float margin, fe__clip_vertex *out)
 {
     float lean = sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
-    int32_t count = disc->height + disc->radius * lean <= margin ? 4 : FE_RIM_POINTS;
-    for (int32_t i = 0; i < count; ++i)
-        out[i] = rim_point(disc, (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS);
+    int32_t few = disc->height + disc->radius * lean <= margin, count = few ? 4 : FE_RIM_POINTS;
+    // the two in front, and those 127 degrees from them
+    static const int32_t aimed[4] = {0, 1, 6, 11};
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t on = (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS;
+        out[i] = rim_point(disc, few && disc->pattern == FE_RIM_AIMED ? aimed[i] : on);
+    }
     return count;
 }
 
@@ -306,21 +306,30 @@ static float apart(const fe__clip_vertex *p, const fe__clip_vertex *q)
     return sqrtf(du * du + dv * dv);
 }
 
-// Of those as deep as the deepest the one farthest from the middle: a vertex amid an edge must not stand for a corner.
-static int32_t deepest(const fe__clip_vertex *p, int32_t count, float tie)
+typedef struct bounds {
+    fe__clip_vertex low, high; // the high one's height is not told
+} bounds;
+
+static bounds bounds_of(const fe__clip_vertex *p, int32_t count)
 {
-    fe__clip_vertex low = p[0], high = p[0];
+    bounds b = {p[0], p[0]};
     for (int32_t i = 1; i < count; ++i) {
-        low.u = fe__minf(low.u, p[i].u), high.u = fe__maxf(high.u, p[i].u);
-        low.v = fe__minf(low.v, p[i].v), high.v = fe__maxf(high.v, p[i].v);
-        low.height = fe__minf(low.height, p[i].height);
+        b.low.u = fe__minf(b.low.u, p[i].u), b.high.u = fe__maxf(b.high.u, p[i].u);
+        b.low.v = fe__minf(b.low.v, p[i].v), b.high.v = fe__maxf(b.high.v, p[i].v);
+        b.low.height = fe__minf(b.low.height, p[i].height);
     }
-    fe__clip_vertex middle = {0.5f * (low.u + high.u), 0.5f * (low.v + high.v), low.height, 0};
+    return b;
+}
+
+// Of those as deep as the deepest the one farthest from the middle: a vertex amid an edge must not stand for a corner.
+static int32_t deepest(const fe__clip_vertex *p, int32_t count, const bounds *b, float tie)
+{
+    fe__clip_vertex middle = {0.5f * (b->low.u + b->high.u), 0.5f * (b->low.v + b->high.v), b->low.height, 0};
     int32_t k = 0;
     float best = -1.0f;
     for (int32_t i = 0; i < count; ++i) {
         float distance = apart(&p[i], &middle);
-        if (p[i].height <= low.height + tie && distance > best + tie) best = distance, k = i;
+        if (p[i].height <= b->low.height + tie && distance > best + tie) best = distance, k = i;
     }
     return k;
 }
@@ -344,11 +353,13 @@ static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chos
     return 0;
 }
 
+// m, a few overlaps of a body at rest: what is higher than the deepest by no more may carry too
+#define CLEAR 0.001f
+
 // What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry,
 // side by side, now one is chosen and now the other, and the load swings between them.
 static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
 {
-    const float clear = 0.001f; // m, a few overlaps of a body at rest
     float level = fe__maxf(p[chosen[0]].height + tie, 0.0f);
     for (int32_t i = 0; i < count; ++i) {
         if (p[i].height > level || is_among(p, i, chosen, chosen_count, tie)) continue;
@@ -356,15 +367,165 @@ static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie
         for (int32_t k = 1; k < chosen_count; ++k) {
             if (p[chosen[k]].height > p[chosen[highest]].height) highest = k;
         }
-        if (p[chosen[highest]].height <= level + clear) return;
+        if (p[chosen[highest]].height <= level + CLEAR) return;
         chosen[highest] = i;
     }
 }
 
-int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
+// ---- where the load leans ------------------------------------------------------------------------------------------
+// The middle of the vertices, and the way from there to the foot
+typedef struct outlook {
+    float u, v, du, dv, square; // the square of the way's length
+} outlook;
+
+// both times the way's length
+static float ahead_of(const outlook *o, const fe__clip_vertex *p)
 {
-    if (count <= 4) return count;
-    int32_t first = deepest(p, count, tie), second = farthest(p, count, first, tie), left = first, right = first;
+    return o->du * (p->u - o->u) + o->dv * (p->v - o->v);
+}
+static float left_of(const outlook *o, const fe__clip_vertex *p)
+{
+    return o->du * (p->v - o->v) - o->dv * (p->u - o->u);
+}
+
+// 0: too few vertices are that low
+static int32_t look_out(const fe__clip_vertex *p, int32_t count, float level, const fe__foot *foot, outlook *o)
+{
+    float u = 0.0f, v = 0.0f;
+    int32_t low = 0;
+    for (int32_t i = 0; i < count; ++i)
+        if (p[i].height <= level) u += p[i].u, v += p[i].v, ++low;
+    if (low < 3) return 0;
+    float share = foot->from_origin ? 0.0f : 1.0f / (float)low;
+    *o = (outlook){.u = share * u, .v = share * v};
+    o->du = foot->u - o->u, o->dv = foot->v - o->v, o->square = o->du * o->du + o->dv * o->dv;
+    return 1;
+}
+
+// Where the line from a vertex on the left to one on the right crosses the way
+static float crossing_of(const outlook *o, const fe__clip_vertex *a, const fe__clip_vertex *b)
+{
+    float left = left_of(o, a), right = -left_of(o, b), width = left + right;
+    if (!(width > 0.0f)) return fe__minf(ahead_of(o, a), ahead_of(o, b));
+    return (right * ahead_of(o, a) + left * ahead_of(o, b)) / width;
+}
+
+// The low vertex on the left, or on the right, whose line with `other` crosses farthest out, of several on one line the
+// one farthest aside; without the other the vertex farthest out. -1: there is none on that side
+static int32_t farthest_out(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, int32_t is_left,
+                            const fe__clip_vertex *other, float tie)
+{
+    int32_t best = -1;
+    float most = 0.0f, aside = 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        float left = left_of(o, &p[i]);
+        if (p[i].height > level || (left >= 0.0f) != is_left) continue;
+        float at = !other ? ahead_of(o, &p[i]) : is_left ? crossing_of(o, &p[i], other) : crossing_of(o, other, &p[i]);
+        int32_t is_wider = fe__absf(left) > aside + tie && at > most - tie;
+        if (best < 0 || at > most + tie || is_wider) most = at, aside = fe__absf(left), best = i;
+    }
+    return best;
+}
+
+// From tangent to tangent of the vertices on either side to their common one (Preparata and Hong, 1977)
+static float find_front(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, float tie,
+                        int32_t front[2])
+{
+    front[0] = front[1] = -1;
+    float equal = tie * sqrtf(o->square);
+    int32_t a = farthest_out(o, p, count, level, 1, NULL, equal), b = farthest_out(o, p, count, level, 0, NULL, equal);
+    if (a < 0 || b < 0) return 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t left = farthest_out(o, p, count, level, 1, &p[b], equal);
+        int32_t right = farthest_out(o, p, count, level, 0, &p[left], equal);
+        if (left == a && right == b) break;
+        a = left, b = right;
+    }
+    float at = crossing_of(o, &p[a], &p[b]);
+    front[0] = a, front[1] = b;
+    return at > 0.0f ? o->square / at : 0.0f;
+}
+
+// The farthest along a direction, cosine and sine of its angle left of the way: the lowest, were the face tilted that
+// way by `tilt`, more than it leans.
+static int32_t farthest_along(const outlook *o, const fe__clip_vertex *p, int32_t count, const float direction[2],
+                              float tie)
+{
+    const float tilt = 0.05f;
+    int32_t best = 0;
+    float most = -FLT_MAX, per_length = 1.0f / sqrtf(o->square);
+    for (int32_t i = 0; i < count; ++i) {
+        float along = per_length * (direction[0] * ahead_of(o, &p[i]) + direction[1] * left_of(o, &p[i]));
+        along -= p[i].height / tilt;
+        if (along > most + tie) most = along, best = i;
+    }
+    return best;
+}
+
+// What lies deeper than the edge in front carries too: it takes the place of the higher one behind. The other stays, or
+// what rocks would fall back onto nothing.
+static void keep_deepest(const fe__clip_vertex *p, int32_t count, float low, float tie, int32_t *four, int32_t chosen)
+{
+    if (chosen < 4 || fe__minf(p[four[0]].height, p[four[1]].height) <= low + tie) return;
+    int32_t deepest = 0;
+    for (int32_t i = 1; i < count; ++i)
+        if (p[i].height < p[deepest].height) deepest = i;
+    if (!is_among(p, deepest, four, chosen, tie)) four[p[four[2]].height > p[four[3]].height ? 2 : 3] = deepest;
+}
+
+// Where the way passes the front near one of its ends, the edge beyond that end bears as soon as the load shifts by
+// little: its other end is chosen too, or the points would change from side to side, and each come in sunk. Returns the
+// number of those chosen
+static int32_t turn_corner(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, float tie,
+                           int32_t four[4])
+{
+    const float near_end = 0.25f, beyond = 0.05f; // of the front's length
+    float left = left_of(o, &p[four[0]]), right = -left_of(o, &p[four[1]]), width = left + right;
+    int32_t end = left < right ? 0 : 1, next[2];
+    if (!(fe__minf(left, right) < near_end * width)) return 2;
+    const fe__clip_vertex *a = p + four[end], *b = p + four[1 - end];
+    outlook there = {.u = o->u, .v = o->v};
+    there.du = a->u + beyond * (a->u - b->u) - o->u, there.dv = a->v + beyond * (a->v - b->v) - o->v;
+    there.square = there.du * there.du + there.dv * there.dv;
+    find_front(&there, p, count, level, tie, next);
+    if (next[1 - end] != four[end] || is_among(p, next[end], four, 2, tie)) return 2;
+    four[2] = next[end];
+    return 3;
+}
+
+// Returns the number of those chosen, 0: the load does not lean. What rocks another way, or is no face, leaves nothing
+// out
+static int32_t choose_by_foot(const fe__clip_vertex *p, int32_t count, float low, float level, float tie,
+                              const fe__foot *foot, int32_t four[4], int32_t *left_out)
+{
+    outlook o;
+    int32_t front[2];
+    if (!look_out(p, count, level, foot, &o)) return 0;
+    float out = find_front(&o, p, count, level, tie, front);
+    if (!(out > FE__FOOT_LEAST)) return 0;
+    float high = fe__maxf(p[front[0]].height, p[front[1]].height);
+    if (high > low + fe__most_lean(sqrtf(o.square) / out)) {
+        *left_out = FE_LEFT_NONE;
+        return 0;
+    }
+    *left_out = FE_LEFT_SIDES;
+    four[0] = front[0], four[1] = front[1];
+    int32_t chosen = turn_corner(&o, p, count, level, tie, four), first = chosen == 3 ? 2 : 0;
+    // 120 degrees to either side of the way: with the front they keep half of a disc's radius on every side of its
+    // middle; where the front is the longest chord, what lies farthest behind it
+    static const float behind[3][2] = {{-0.5f, 0.8660254f}, {-0.5f, -0.8660254f}, {-1.0f, 0.0f}};
+    for (int32_t k = first; k < 3 && chosen < 4; ++k) {
+        int32_t i = farthest_along(&o, p, count, behind[k], tie);
+        if (!is_among(p, i, four, chosen, tie)) four[chosen++] = i;
+    }
+    if (!first) keep_deepest(p, count, low, tie, four, chosen);
+    return chosen;
+}
+
+// ---- where it does not ---------------------------------------------------------------------------------------------
+static int32_t choose_widest(const fe__clip_vertex *p, int32_t count, const bounds *b, float tie, int32_t four[4])
+{
+    int32_t first = deepest(p, count, b, tie), second = farthest(p, count, first, tie), left = first, right = first;
     float du = p[second].u - p[first].u, dv = p[second].v - p[first].v, step = tie * sqrtf(du * du + dv * dv),
           most = step, least = -step;
     for (int32_t i = 0; i < count; ++i) {
@@ -372,23 +533,91 @@ int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
         if (area > most) most = area + step, left = i;
         if (area < least) least = area - step, right = i;
     }
-    int32_t four[4] = {first}, chosen = 1;
+    int32_t chosen = 1;
+    four[0] = first;
     if (second != first) four[chosen++] = second;
     if (left != first) four[chosen++] = left;
     if (right != first) four[chosen++] = right;
-    keep_what_carries(p, count, tie, four, chosen);
+    return chosen;
+}
+
+// Do those of the chosen vertices that are low hold the foot: is it on their side of the line through any two that are
+// an edge of theirs, by its share of the distance of their middle?
+static int32_t hold(const fe__clip_vertex *p, const int32_t *chosen, int32_t count, float level, const fe__foot *foot)
+{
+    const fe__clip_vertex *low[4];
+    int32_t n = 0;
+    for (int32_t i = 0; i < count; ++i)
+        if (p[chosen[i]].height <= level) low[n++] = p + chosen[i];
+    if (n < 3) return 0;
+    float share = (1.0f - (foot->last.left_out < FE_LEFT_SIDES ? FE__FOOT_MOST : FE__FOOT_BACK)) / (float)n;
+    for (int32_t i = 0; i < n; ++i)
+        for (int32_t j = i + 1; j < n; ++j) {
+            float du = low[j]->u - low[i]->u, dv = low[j]->v - low[i]->v, right = 0.0f, left = 0.0f;
+            for (int32_t k = 0; k < n; ++k) {
+                if (k == i || k == j) continue;
+                float off = du * (low[k]->v - low[i]->v) - dv * (low[k]->u - low[i]->u);
+                right += fe__minf(off, 0.0f), left += fe__maxf(off, 0.0f);
+            }
+            float off = du * (foot->v - low[i]->v) - dv * (foot->u - low[i]->u);
+            if (!(right < 0.0f) && off < share * left) return 0;
+            if (!(left > 0.0f) && off > share * right) return 0;
+        }
+    return 1;
+}
+
+// The widest four of the last choice. 0: some are gone, or clear of the face, or they do not hold the foot
+static int32_t choose_again(const fe__clip_vertex *p, int32_t count, const bounds *b, float level, float tie,
+                            const fe__foot *foot, int32_t four[4])
+{
+    const fe__choice *last = &foot->last;
+    float carries = fe__maxf(b->low.height + tie, 0.0f) + CLEAR;
+    int32_t found = 0;
+    if (last->left_out >= FE_LEFT_SIDES) return 0;
+    for (int32_t k = 0; k < last->count; ++k)
+        for (int32_t i = 0; i < count; ++i) {
+            if (p[i].id != last->ids[k]) continue;
+            if (p[i].height > carries) return 0;
+            four[found++] = i;
+            break;
+        }
+    if (found < 3 || found < last->count) return 0;
+    return !foot->is_known || hold(p, four, found, level, foot) ? found : 0;
+}
+
+int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie, const fe__foot *foot, int32_t *left_out)
+{
+    if (count <= 4) return count;
+    const bounds b = bounds_of(p, count);
+    float low = fe__maxf(b.low.height, 0.0f),
+          level = low + fe__most_lean(fe__maxf(b.high.u - b.low.u, b.high.v - b.low.v));
+    int32_t four[4], chosen = 0, low_count = 0;
+    if (foot) {
+        for (int32_t i = 0; i < count; ++i) low_count += p[i].height <= level;
+        *left_out = low_count > 4 ? FE_LEFT_SOME : FE_LEFT_NONE;
+        if (low_count > 4) chosen = choose_again(p, count, &b, level, tie, foot, four);
+    }
+    if (!chosen) {
+        chosen = choose_widest(p, count, &b, tie, four);
+        keep_what_carries(p, count, tie, four, chosen);
+        if (low_count > 4 && foot->is_known && (foot->is_aimed || !hold(p, four, chosen, level, foot))) {
+            int32_t by_foot[4], n = choose_by_foot(p, count, low, level, tie, foot, by_foot, left_out);
+            if (n) memcpy(four, by_foot, sizeof four), chosen = n;
+        }
+    }
     fe__clip_vertex kept[4];
     for (int32_t i = 0; i < chosen; ++i) kept[i] = p[four[i]];
     memcpy(p, kept, sizeof(fe__clip_vertex) * (size_t)chosen);
     return chosen;
 }
 
-int32_t fe__keep_near(fe__clip_vertex *p, int32_t count, float radii, float margin, float tie)
+int32_t fe__keep_near(fe__clip_vertex *p, int32_t count, float radii, float margin, float tie, const fe__foot *foot,
+                      int32_t *left_out)
 {
     int32_t near = 0;
     for (int32_t i = 0; i < count; ++i) {
         p[i].height -= radii;
         if (p[i].height <= margin) p[near++] = p[i];
     }
-    return fe__reduce_to_four(p, near, tie);
+    return fe__reduce_to_four(p, near, tie, foot, left_out);
 }

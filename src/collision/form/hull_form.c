@@ -1,6 +1,8 @@
 // hull_form.c - the hull as a form: where a scaled, shifted hull ends, and what it weighs. See hull_form.h.
 #include "collision/form/hull_form.h"
 
+#include <float.h>
+
 #include "collision/form/kinds.h"
 
 fe__form fe__hull_form(const fe__hull *hull, int32_t index)
@@ -72,18 +74,76 @@ fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction)
     return fe__hull_form_vertex(form, fe__hull_support(form->hull, direction));
 }
 
+// The corner on the left of the way from the middle of a face to the foot whose neighbour is on its right: that edge is
+// what the load leans over. Corners turn left around the normal. -1: the foot is near the middle
+static int32_t corner_over_foot(const fe__hull *hull, const fe__hull_face *f, fe_vec3 normal, fe_vec3 foot)
+{
+    const float leans = 0.5f; // of the corner's distance
+    fe_vec3 middle = {0.0f, 0.0f, 0.0f};
+    for (int32_t i = 0; i < f->count; ++i) middle = fe__add(middle, fe__hull_vertex(hull, hull->corners[f->first + i]));
+    middle = fe__scale(1.0f / (float)f->count, middle);
+    fe_vec3 way = fe__sub(foot, middle), left = fe__cross(normal, way);
+    fe_vec3 last = fe__sub(fe__hull_vertex(hull, hull->corners[f->first + f->count - 1]), middle);
+    for (int32_t i = 0; i < f->count; ++i) {
+        fe_vec3 p = fe__sub(fe__hull_vertex(hull, hull->corners[f->first + i]), middle);
+        if (fe__dot(left, p) >= 0.0f && fe__dot(left, last) < 0.0f)
+            return fe__dot(way, way) > leans * leans * fe__dot(p, p) ? i : -1;
+        last = p;
+    }
+    return -1;
+}
+
+// Does the face lean no farther than what is chosen by the load may, and is the edge before that corner as low as any?
+static int32_t leans_there(const fe__hull *hull, const fe__hull_face *f, fe_vec3 direction, int32_t corner)
+{
+    const float clear = 0.001f; // m, a few overlaps of a body at rest
+    float low = -FLT_MAX, high = FLT_MAX, there = -FLT_MAX;
+    int32_t before = corner > 0 ? corner - 1 : f->count - 1;
+    for (int32_t i = 0; i < f->count; ++i) {
+        float along = fe__dot(direction, fe__hull_vertex(hull, hull->corners[f->first + i]));
+        low = fe__maxf(low, along), high = fe__minf(high, along);
+        if (i == corner || i == before) there = fe__maxf(there, along);
+    }
+    return there >= low - clear && low - high <= 2.0f * fe__most_lean(0.5f * hull->extent);
+}
+
+// Each vertex of a polygon with fewer stands for some corners side by side: its name stays theirs, whichever it is at.
+static int32_t vertex_for(const fe__hull_face *f, int32_t count, int32_t corner)
+{
+    return ((corner + 1) * count - 1) / f->count;
+}
+
+// The edge before that corner is whole, and so are those on either side of it where there is room.
+static void keep_edge(const fe__hull *hull, const fe__hull_face *f, int32_t corner, fe__face *out)
+{
+    static const int32_t ahead[4] = {1, -2, 0, -1}; // what comes later stays
+    int32_t here = vertex_for(f, out->count, corner);
+    for (int32_t k = 0; k < 4; ++k) {
+        int32_t c = (corner + ahead[k] + f->count) % f->count, i = vertex_for(f, out->count, c);
+        if (ahead[k] == -1 && i == here) i = i > 0 ? i - 1 : out->count - 1;
+        out->vertex[i] = fe__hull_vertex(hull, hull->corners[f->first + c]);
+    }
+}
+
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out)
 {
     const fe__hull_face *f = hull->faces + face;
     int32_t first = f->first, all = f->count, count = all < FE_FACE_VERTICES ? all : FE_FACE_VERTICES, low = 0;
-    for (int32_t i = 1; i < all; ++i)
-        if (fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + i])) >
-            fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + low])))
-            low = i;
     out->count = count;
     out->normal = fe__hull_normal(hull, face);
     out->id = (uint32_t)face;
     out->rim = 0.0f;
+    int32_t over = all > count && out->foot ? corner_over_foot(hull, f, out->normal, *out->foot) : -1;
+    if (over >= 0 && leans_there(hull, f, deepest, over)) {
+        for (int32_t i = 0; i < count; ++i)
+            out->vertex[i] = fe__hull_vertex(hull, hull->corners[first + i * all / count]);
+        keep_edge(hull, f, over, out);
+        return;
+    }
+    for (int32_t i = 1; i < all; ++i)
+        if (fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + i])) >
+            fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + low])))
+            low = i;
     for (int32_t i = 0; i < count; ++i) {
         int32_t begin = i * all / count, end = (i + 1) * all / count;
         int32_t corner = low >= begin && low < end ? low : begin;
@@ -130,9 +190,13 @@ static int32_t face_around(const fe__hull *hull, int32_t vertex, fe_dvec3 direct
 
 void fe__hull_form_face_at(const fe__form *form, int32_t vertex, fe_vec3 direction, fe__face *face)
 {
+    const fe_vec3 *given = face->foot;
+    fe_vec3 foot;
+    if (given) foot = fe__scale(1.0f / form->scale, fe__sub(*given, form->offset)), face->foot = &foot;
     fe__hull_polygon(form->hull, face_around(form->hull, vertex, fe__widen(direction)), direction, face);
     for (int32_t i = 0; i < face->count; ++i)
         face->vertex[i] = fe__add_scaled(form->offset, form->scale, face->vertex[i]);
+    face->foot = given;
 }
 
 void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face)

@@ -25,8 +25,8 @@ static inline fe__bounds fe__form_rough_bounds(const fe__form *form, const fe__p
     return fe__form_is_hull(form) ? fe__hull_form_rough_bounds(form, pose) : fe__form_bounds(form, pose);
 }
 
-// In the hull's frame. Of a face with more corners than FE_FACE_VERTICES some are left out, never the farthest along
-// `deepest`.
+// In the hull's frame, out->foot too, which is given. Of a face with more corners than FE_FACE_VERTICES some are left
+// out, never the farthest along `deepest`, or, while the face lies, the edge over which the load leans.
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out);
 
 // of a point of the form, in the hull's frame

@@ -208,7 +208,7 @@ static float clip_faces(const box_pair *pair, const face_view *q, int32_t axis, 
     fe__parallelogram incident = incident_face(q, f, u, v, side);
     fe__clip_vertex vertex[12];
     int32_t count = fe__clip_rectangle(&incident, q->half[u], q->half[v], pair->slack, margin, vertex);
-    count = fe__reduce_to_four(vertex, count, 0.1f * pair->tie);
+    count = fe__reduce_to_four(vertex, count, 0.1f * pair->tie, NULL, NULL);
     for (int32_t i = 0; i < count; ++i) {
         float p[3];
         p[f] = side * (q->half[f] + 0.5f * vertex[i].height), p[u] = vertex[i].u, p[v] = vertex[i].v;

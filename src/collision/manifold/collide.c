@@ -47,7 +47,7 @@ void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_
 {
     assert(b->type != FE__FORM_PLANE && (a->type >= b->type || (has_size(a) && has_size(b))));
     manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);
-    manifold->count = manifold->round = 0;
+    manifold->count = manifold->round = manifold->left_out = 0;
     fe__kernel *kernel = kernels[a->type][b->type];
     if (kernel == NULL) kernel = fe__collide_convex;
     kernel(a, b, b_in_a, margin, manifold);

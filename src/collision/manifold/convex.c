@@ -119,9 +119,14 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding);
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
-    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie);
+    fe__foot foot = {.is_known = 0};
+    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16, last[4];
+    if (count > 4) {
+        foot = fe__foot_in_plane(&manifold->load, frame.origin, frame.u, frame.v, frame.n);
+        fe__names_of_vertices(&foot.last, ~(uint32_t)0xffff, faces, last);
+    }
+    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie, &foot, &manifold->left_out);
     manifold->normal = flip ? fe__neg(frame.n) : frame.n;
-    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);
         // from the reference core out to its surface, and half the way on
@@ -144,15 +149,18 @@ typedef struct facing {
     const fe__relative *b_in_a;
     fe__face face[2];
     float cosine[2]; // of polygons' normals and that found; else 0
+    int32_t has_foot;
+    fe_vec3 foot[2]; // where the load presses, each in its own frame
 } facing;
 
 static void face_towards(facing *f, int32_t k, fe_vec3 direction)
 {
+    const fe_vec3 *foot = f->has_foot ? &f->foot[k] : NULL;
     if (k == 0) {
-        fe__form_face(f->form[0], direction, &f->face[0]);
+        fe__form_face_under(f->form[0], direction, foot, &f->face[0]);
         return;
     }
-    fe__form_face(f->form[1], fe__mul_transposed(&f->b_in_a->rotation, direction), &f->face[1]);
+    fe__form_face_under(f->form[1], fe__mul_transposed(&f->b_in_a->rotation, direction), foot, &f->face[1]);
     move_face(&f->face[1], f->b_in_a);
 }
 
@@ -220,10 +228,18 @@ static int32_t touch_lines(const facing *f, const fe__core_touch *found, float m
     return fe__lay_lines(a, b, &f->face[0], &f->face[1], found, middle_of(found, a, b), tie, margin, manifold);
 }
 
+static void find_feet(facing *f, const fe__load *load, const fe__core_touch *found)
+{
+    f->has_foot = fe__find_foot(load, found->on_a, found->normal, &f->foot[0]);
+    if (!f->has_foot) return;
+    f->foot[1] = fe__mul_transposed(&f->b_in_a->rotation, fe__sub(f->foot[0], f->b_in_a->position));
+}
+
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
                                     const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
     facing f = {.form = {a, b}, .b_in_a = b_in_a};
+    find_feet(&f, &manifold->load, found);
     face_towards(&f, 0, found->normal);
     face_towards(&f, 1, fe__neg(found->normal));
     int32_t is_point = f.face[0].count == 1 || f.face[1].count == 1,
@@ -249,7 +265,7 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
     u = fe__scale(1.0f / fe__length(u), u);
     plane_frame frame = {fe__scale(plane->distance, plane->normal), u, fe__cross(plane->normal, u), plane->normal};
     project(&frame, &face, vertex);
-    int32_t near = fe__keep_near(vertex, face.count, b->radius, margin, 0.0f);
+    int32_t near = fe__keep_near(vertex, face.count, b->radius, margin, 0.0f, NULL, NULL);
     if (near > 0) manifold->normal = plane->normal;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);

@@ -29,9 +29,14 @@ typedef struct choice {
     fe__core_touch *touch;
 } choice;
 
+static double separation_of(const fe__cores *cores, fe_dvec3 n, fe_dvec3 difference)
+{
+    return -fe__ddot(n, difference) - (double)cores->a->radius - (double)cores->b->radius;
+}
+
 static double separation_along(const fe__cores *cores, fe_dvec3 n)
 {
-    return -fe__ddot(n, fe__cores_support(cores, n).difference) - (double)cores->a->radius - (double)cores->b->radius;
+    return separation_of(cores, n, fe__cores_support(cores, n).difference);
 }
 
 // 1: it is the normal
@@ -205,7 +210,10 @@ static int32_t look_from_side(const fe__cores *cores, int32_t is_b, fe_vec3 last
 static int32_t look_along(const fe__cores *cores, fe_dvec3 direction, int32_t axis, fe__core_touch *touch)
 {
     fe_dvec3 n = fe__dscale((axis & AGAINST ? -1.0 : 1.0) / sqrt(fe__ddot(direction, direction)), direction);
-    *touch = (fe__core_touch){.normal = fe__narrow(n), .separation = (float)separation_along(cores, n)};
+    fe__vertex v = fe__cores_support(cores, n);
+    *touch = (fe__core_touch){.normal = fe__narrow(n),
+                              .separation = (float)separation_of(cores, n, v.difference),
+                              .on_a = fe__narrow(v.on_a)}; // in the plane of what touches
     return 1;
 }
 

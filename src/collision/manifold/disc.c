@@ -37,7 +37,7 @@ static void project(const disc_frame *f, const fe__face *other, fe_vec3 n, fe__c
 // The other's plane over that of the disc, along n: the h with ((c + u U + v V + h n) - p) . m = 0, m its normal
 static fe__disc disc_over(const disc_frame *f, const fe__face *disc, const fe__face *other, fe_vec3 n)
 {
-    fe__disc d = {.radius = disc->rim, .low = disc->low};
+    fe__disc d = {.radius = disc->rim, .low = disc->low, .pattern = disc->pattern};
     if (other->count < 3) return d;
     fe_vec3 m = fe__scale(-1.0f / fe__dot(n, other->normal), other->normal);
     d.height = fe__dot(fe__sub(f->centre, other->vertex[0]), m);
@@ -59,6 +59,17 @@ static float lowest_of_all(const fe__disc *disc, int32_t is_incident, const fe__
     return disc->height - disc->radius * sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
 }
 
+enum { NO_RIM = -1 };
+
+// How the points stand on the rim that has some among the vertices
+static int32_t pattern_of(const fe__face *disc, const fe__face *other, const fe__clip_vertex *vertex, int32_t count)
+{
+    if (other->rim > 0.0f && other->rim < disc->rim) return other->pattern;
+    for (int32_t i = 0; i < count; ++i)
+        if ((vertex[i].id & 0xff) >= FE_CLIP_SIDE && vertex[i].id >> 8 >= FE_CLIP_SIDE) return disc->pattern;
+    return NO_RIM;
+}
+
 // Where the cores overlap, what hangs over the reference's rim has to come out too.
 int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float radii, int32_t flip,
                      const fe__core_touch *found, float tie, float margin, fe__manifold *manifold)
@@ -77,9 +88,24 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     int32_t count = fe__clip_disc(&d, side, other->count, 0.1f * tie + rounding, margin + radii, vertex);
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
-    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie);
+    fe__foot foot = {.is_known = 0};
+    int32_t pattern = pattern_of(disc, other, vertex, count), is_whole = count == 4 && disc->pattern == FE_RIM_AIMED;
+    if (count > 4 && pattern != FE_RIM_LEANS)
+        foot = fe__foot_in_plane(&manifold->load, frame.centre, frame.u, frame.v, frame.n);
+    foot.is_aimed = pattern == FE_RIM_AIMED; // its points are new each time
+    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16, last[4];
+    if (foot.is_aimed)
+        foot.last.count = 0;
+    else
+        fe__names_of_vertices(&foot.last, ~(uint32_t)0xffff, faces, last);
+    int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie, &foot, &manifold->left_out);
+    if (pattern == FE_RIM_LEANS || near < 3)
+        manifold->left_out = FE_LEFT_NONE;
+    else if (is_whole || (pattern == FE_RIM_AIMED && manifold->left_out == FE_LEFT_SIDES))
+        manifold->left_out = FE_LEFT_REST;
+    else if (count == 4 && pattern == FE_RIM_LIES)
+        manifold->left_out = FE_LEFT_SOME;
     manifold->normal = flip ? fe__neg(reference->normal) : reference->normal;
-    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.centre, vertex[i].u, frame.u), vertex[i].v, frame.v);
         fe__add_point(manifold, fe__add_scaled(p, 0.5f * vertex[i].height, n), vertex[i].height, faces | vertex[i].id);

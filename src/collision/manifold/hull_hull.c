@@ -17,6 +17,7 @@ typedef struct hull_pair {
     const fe__hull *a, *b;
     fe__relative b_in_a; // of the hulls' frames
     float tie, slack;    // m; slack: by which a face reaches beyond its rim
+    fe__load load;       // frame of A's hull
 } hull_pair;
 
 // ---- the axis ------------------------------------------------------------------------------------------------------
@@ -175,12 +176,27 @@ static void project(const plane_frame *frame, const fe__face *face, fe__clip_ver
     }
 }
 
+// in the frame of the reference's hull
+static fe__load load_of(const hull_pair *q, const face_pair *p)
+{
+    return p->own == q->a ? q->load : fe__load_in_frame(&q->load, q->b_in_a.position, &q->b_in_a.rotation);
+}
+
 // Cuts the other's face by the reference; points and normal are in the frame of the reference's hull.
 static void cut_faces(const hull_pair *q, const face_pair *p, int32_t face, float margin, fe__manifold *manifold)
 {
     const fe__mat3 *r = &p->other_in_own.rotation;
     fe_vec3 normal = fe__hull_normal(p->own, p->face), in_other = fe__mul_transposed(r, normal);
+    fe_vec3 own_foot, other_foot;
     fe__face reference, incident;
+    reference.foot = incident.foot = NULL;
+    if (fe__maxi(p->own->faces[p->face].count, p->other->faces[face].count) > FE_FACE_VERTICES) {
+        const fe__load load = load_of(q, p);
+        if (fe__find_foot(&load, fe__scale(p->own->distances[p->face], normal), normal, &own_foot)) {
+            other_foot = fe__mul_transposed(r, fe__sub(own_foot, p->other_in_own.position));
+            reference.foot = &own_foot, incident.foot = &other_foot;
+        }
+    }
     fe__hull_polygon(p->own, p->face, normal, &reference);
     fe__hull_polygon(p->other, face, fe__neg(in_other), &incident);
     for (int32_t i = 0; i < incident.count; ++i)
@@ -190,9 +206,16 @@ static void cut_faces(const hull_pair *q, const face_pair *p, int32_t face, floa
     project(&frame, &reference, side);
     project(&frame, &incident, vertex);
     int32_t count = fe__clip_polygon(side, reference.count, vertex, incident.count, q->slack);
-    int32_t near = fe__keep_near(vertex, count, 0.0f, margin, 0.1f * q->tie);
+    uint32_t faces = (uint32_t)(p->own == q->b) << 30 | reference.id << 20 | incident.id << 10, last[4];
+    fe__foot foot = {.is_known = 0};
+    if (count > 4) {
+        const fe__load load = load_of(q, p);
+        foot = fe__foot_in_plane(&load, frame.origin, frame.axes.x, frame.axes.y, frame.axes.z);
+        fe__names_of_vertices(&foot.last, ~(uint32_t)0x3ff, faces, last);
+        for (int32_t i = 0; i < foot.last.count; ++i) last[i] = (last[i] & 0x3e0) << 3 | (last[i] & 0x1f);
+    }
+    int32_t near = fe__keep_near(vertex, count, 0.0f, margin, 0.1f * q->tie, &foot, &manifold->left_out);
     manifold->normal = normal;
-    uint32_t faces = (uint32_t)(p->own == q->b) << 30 | reference.id << 20 | incident.id << 10;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 at = {vertex[i].u, vertex[i].v, 0.5f * vertex[i].height};
         uint32_t id = (vertex[i].id >> 8 & 0x1f) << 5 | (vertex[i].id & 0x1f);
@@ -342,6 +365,8 @@ static void touch_hulls(const placed_hull *a, const placed_hull *b, const fe__re
     float smallest = fe__minf(q.a->inner_radius, q.b->inner_radius), largest = fe__maxf(q.a->extent, q.b->extent);
     q.tie = fe__tie(smallest);
     q.slack = 1e-4f * smallest + 1e-7f * largest;
+    q.load = manifold->load;
+    q.load.at = fe__sub(q.load.at, a->offset);
     touch(&q, margin, manifold);
     for (int32_t i = 0; i < manifold->count; ++i)
         manifold->points[i].point = fe__add(manifold->points[i].point, a->offset);

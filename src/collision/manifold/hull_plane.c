@@ -28,7 +28,12 @@ void fe__collide_plane_hull(const fe__form *a, const fe__form *b, const fe__rela
         if (height <= margin) vertex[near++] = (fe__clip_vertex){fe__dot(u, p), fe__dot(v, p), height, (uint32_t)i};
     }
     fe__stay_apart(manifold, lowest, n);
-    near = fe__reduce_to_four(vertex, near, 0.1f * fe__tie(fe__form_thickness(b)));
+    fe__foot foot = {.is_known = 0};
+    if (near > 4) {
+        fe__load load = fe__load_in_frame(&manifold->load, origin, &b_in_a->rotation);
+        foot = fe__foot_in_plane(&load, fe__scale(-middle, up), u, v, up);
+    }
+    near = fe__reduce_to_four(vertex, near, 0.1f * fe__tie(fe__form_thickness(b)), &foot, &manifold->left_out);
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__scale(b->scale, fe__hull_vertex(hull, (int32_t)vertex[i].id));
         p = fe__add(origin, fe__mul(&b_in_a->rotation, p));

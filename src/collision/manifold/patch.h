@@ -22,6 +22,7 @@ typedef struct fe__patch {
     fe_vec3 face;   // unit, of the triangle at whose edge it is touched, where that looks the same way; else the normal
     int32_t count;  // 1..4
     int32_t triangle; // under the deepest point, its number
+    int32_t left_out; // as fe__manifold's
     fe__manifold_point points[FE_MAX_POINTS];
 } fe__patch;
 
@@ -51,6 +52,7 @@ typedef struct fe__terrain {
     int32_t known_count;
     int32_t is_last; // the look is one at the end of B's way (ground.near)
     float fall;      // m, how far B may have fallen, at the look's pose, below what carries it
+    fe__load load;   // common frame
 } fe__terrain;
 
 #endif

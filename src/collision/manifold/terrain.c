@@ -145,12 +145,21 @@ static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 
     return t->ground.near && t->ground.near->is_all ? fe__minf(margin, t->ground.near->margin) : margin;
 }
 
+// What rolls, or rocks, on a rim has its lowest point; a rim that lies is held at points of its body, not where the
+// load leans
+static int32_t left_out_of(const fe__gathering *g, const fe__raw_patch *raw)
+{
+    if (g->rims >> FE_RIM_LEANS & 1) return FE_LEFT_NONE;
+    if (raw->left_out != FE_LEFT_SIDES || !g->rims) return raw->left_out;
+    return g->rims >> FE_RIM_LIES & 1 ? FE_LEFT_SOME : FE_LEFT_REST;
+}
+
 static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
                                fe__patch patches[FE__PATCHES], float *gap)
 {
     fe__gathering g;
     g.terrain = t, g.form = b, g.rotation = rotation, g.margin = margin, g.felt = FELT * fe__form_thickness(b),
-    g.single = fe__form_is_ball(b), g.count = 0;
+    g.single = fe__form_is_ball(b), g.rims = 0, g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     fe__leave_carried(&g);
@@ -159,10 +168,11 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
         fe__raw_patch *raw = g.patches + i;
         if (fe__form_is_curved(b)) fe__keep_side_ends(raw, g.tie);
         if (b->radius > 0.0f && !g.single) fe__keep_core_ends(raw, rotation->y, g.tie);
-        fe__reduce_patch(raw, g.tie);
+        fe__reduce_patch(raw, &t->load, g.rims >> FE_RIM_AIMED & 1, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal,
                                  .face = raw->face,
                                  .count = raw->count,
+                                 .left_out = left_out_of(&g, raw),
                                  .triangle = fe__ground_number(&t->ground, raw->triangle)};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
     }
@@ -196,6 +206,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     move_surroundings(t->around, away, &around);
     fe__terrain there = *t;
     there.origin = fe__dadd(t->origin, fe__widen(away)), there.around = &around;
+    there.load.at = fe__sub(t->load.at, away);
     int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < patches[i].count; ++k)

@@ -154,7 +154,7 @@ typedef struct face_cut {
 
 static void cut_face(const contest *c, face_cut *f)
 {
-    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), -1, &f->face);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), -1, NULL, &f->face);
     f->cut = (fe__cut){c->tile->form.vertex, f->face.vertex, 3,     f->face.count, c->tile->normal,
                        c->tile->normal,      f->face.id + 1, c->tie};
     fe__tile_cut_piece(c->tile, &f->cut, &f->piece);
@@ -163,7 +163,7 @@ static void cut_face(const contest *c, face_cut *f)
 static void touch_box_face(contest *c)
 {
     fe__face face;
-    fe__tile_body_face(c->box, c->rotation, fe__neg(c->best.m), -1, &face);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->best.m), -1, NULL, &face);
     fe__cut cut = {face.vertex, c->tile->form.vertex, face.count, 3, fe__neg(c->best.m), c->best.m, 0, c->tie};
     fe__tile_cut_faces(c->g, c->tile, &cut);
 }

@@ -105,7 +105,10 @@ typedef struct face_cut {
 
 static void cut_face(const contest *c, int32_t lowest_vertex, face_cut *f)
 {
-    fe__tile_body_face(c->form, c->rotation, fe__neg(c->tile->normal), lowest_vertex, &f->face);
+    fe_vec3 n = c->tile->normal, foot;
+    int32_t has_foot = fe__find_foot(&c->g->terrain->load, c->tile->form.vertex[0], n, &foot);
+    fe__tile_body_face(c->form, c->rotation, fe__neg(n), lowest_vertex, has_foot ? &foot : NULL, &f->face);
+    c->g->rims |= f->face.rim > 0.0f ? 1 << f->face.pattern : 0;
     f->cut = (fe__cut){.reference = c->tile->form.vertex,
                        .incident = f->face.vertex,
                        .reference_count = 3,
@@ -173,7 +176,7 @@ static int32_t find_nearest(const contest *c, const low_point *low, fe__core_tou
 static void touch_side(const contest *c, const fe__core_touch *found)
 {
     fe__face face;
-    fe__tile_body_face(c->form, c->rotation, fe__neg(found->normal), -1, &face);
+    fe__tile_body_face(c->form, c->rotation, fe__neg(found->normal), -1, NULL, &face);
     fe_vec3 out = face.count > 2 ? fe__mul(c->rotation, face.normal) : found->normal;
     if (face.count > 2 && -fe__dot(out, found->normal) > FE_FACE_COS) {
         fe__cut cut = {.reference = face.vertex,

@@ -13,13 +13,16 @@ static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const 
 }
 
 void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, int32_t vertex,
-                        fe__face *face)
+                        const fe_vec3 *foot, fe__face *face)
 {
-    fe_vec3 local = fe__mul_transposed(rotation, direction);
+    fe_vec3 local = fe__mul_transposed(rotation, direction), under;
+    if (foot) under = fe__mul_transposed(rotation, *foot), foot = &under;
+    face->foot = foot;
     if (vertex >= 0)
         fe__hull_form_face_at(form, vertex, local, face);
     else
-        fe__form_face(form, local, face);
+        fe__form_face_under(form, local, foot, face);
+    face->foot = NULL;
     for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__mul(rotation, face->vertex[i]);
 }
 

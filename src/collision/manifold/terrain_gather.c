@@ -172,8 +172,22 @@ void fe__leave_carried(fe__gathering *g)
 }
 
 // ---- patches -------------------------------------------------------------------------------------------------------
+// The places of the last choice's points among the first `count`
+static void find_last(const fe__raw_patch *p, int32_t count, fe__choice *last, uint32_t place[FE_MAX_POINTS])
+{
+    int32_t found = 0;
+    for (int32_t k = 0; k < last->count; ++k)
+        for (int32_t i = 0; i < count; ++i) {
+            if (p->points[i].id != last->ids[k]) continue;
+            place[found++] = (uint32_t)i;
+            break;
+        }
+    if (found < last->count) last->count = 0;
+    last->ids = place;
+}
+
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
-static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
+static int32_t leave_four(fe__raw_patch *p, int32_t count, const fe__load *load, int32_t is_aimed, float tie)
 {
     fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f),
             u = fe__cross(n, a);
@@ -184,7 +198,12 @@ static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
     for (int32_t i = 0; i < count; ++i)
         vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point),
                                       p->points[i].separation, (uint32_t)i};
-    count = fe__reduce_to_four(vertex, count, tie);
+    fe_vec3 on_plane = fe__scale(fe__dot(n, p->points[0].point), n); // u and v count from the frame's origin
+    fe__foot foot = fe__foot_in_plane(load, on_plane, u, v, n);
+    foot.is_aimed = is_aimed, foot.from_origin = 1; // the body's centre
+    uint32_t last[FE_MAX_POINTS];
+    find_last(p, count, &foot.last, last);
+    count = fe__reduce_to_four(vertex, count, tie, &foot, &p->left_out);
     for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
     for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
     return count;
@@ -215,7 +234,7 @@ static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 
 // At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest
 // four of all would leave out what carries.
-void fe__reduce_patch(fe__raw_patch *p, float tie)
+void fe__reduce_patch(fe__raw_patch *p, const fe__load *load, int32_t is_aimed, float tie)
 {
     const float touching = 0.001f; // m, a few overlaps of a body at rest
     if (p->count <= FE_MAX_POINTS) return;
@@ -223,7 +242,7 @@ void fe__reduce_patch(fe__raw_patch *p, float tie)
     for (int32_t i = 0; i < p->count; ++i)
         if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touching) swap(p, i, near++);
     if (near >= FE_MAX_POINTS) {
-        p->count = widest_four(p, near, tie);
+        p->count = leave_four(p, near, load, is_aimed, tie);
         return;
     }
     for (; near < FE_MAX_POINTS; ++near) choose_farthest(p, near);
@@ -256,7 +275,8 @@ static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifo
         if (point->separation < p->deepest) p->deepest = point->separation, p->triangle = triangle;
         return;
     }
-    if (p->count == FE__RAW_POINTS) fe__reduce_patch(p, g->tie);
+    // of what comes yet, nobody knows whether it holds the load better than the widest four of these
+    if (p->count == FE__RAW_POINTS) fe__reduce_patch(p, &g->terrain->load, 1, g->tie);
     p->points[p->count++] = *point;
     if (point->separation < p->deepest) p->deepest = point->separation, p->triangle = triangle;
 }

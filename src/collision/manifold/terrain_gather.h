@@ -7,7 +7,7 @@ enum { FE__RAW_POINTS = 16 };
 
 typedef struct fe__raw_patch {
     fe_vec3 normal;
-    int32_t count, triangle, material;
+    int32_t count, triangle, material, left_out;
     int32_t is_of_face; // the normal is that of the triangle
     fe_vec3 face;       // as fe__patch.face
     float deepest;
@@ -23,6 +23,7 @@ typedef struct fe__gathering {
     float tie;        // m, points as deep as each other
     float same_place; // m, points of two triangles at their seam
     int32_t single;   // one point a patch
+    int32_t rims;     // 1 << FE_RIM_* of those whose points were cut
     int32_t count;
     fe__raw_patch patches[FE__PATCHES + 1];
 } fe__gathering;
@@ -45,6 +46,7 @@ void fe__leave_carried(fe__gathering *g);
 // Of a line that touches from one of two points to the other, these carry all: what lies between, where seams cut it,
 // comes and goes as the line rolls. Points deeper than the two by more than `tie` stay.
 void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie);
-void fe__reduce_patch(fe__raw_patch *patch, float tie); // leaves at most FE_MAX_POINTS
+// Leaves at most FE_MAX_POINTS. `is_aimed`: see fe__foot
+void fe__reduce_patch(fe__raw_patch *patch, const fe__load *load, int32_t is_aimed, float tie);
 
 #endif

@@ -23,9 +23,9 @@ typedef struct fe__cut {
 } fe__cut;
 struct fe__face;
 // The body's face that looks along the direction, in the common frame. `vertex`: of a hull, the farthest along it; -1:
-// not known
+// not known. `foot`: where the load presses, or NULL
 void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, int32_t vertex,
-                        struct fe__face *face);
+                        const fe_vec3 *foot, struct fe__face *face);
 // What is left of the incident one: heights over the reference's plane
 typedef struct fe__cut_piece {
     fe_vec3 origin;
