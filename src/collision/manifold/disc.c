@@ -93,7 +93,9 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     if (count > 4 && pattern != FE_RIM_LEANS)
         foot = fe__foot_in_plane(&manifold->load, frame.centre, frame.u, frame.v, frame.n);
     foot.is_aimed = pattern == FE_RIM_AIMED; // its points are new each time
-    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16, last[4];
+    // whichever is the reference: a wide disc that leans gives way to the other, and its points stay what they are
+    uint32_t of_a = (flip ? incident : reference)->id & 0x7f, of_b = (flip ? reference : incident)->id & 0xff;
+    uint32_t faces = of_a << 24 | of_b << 16, last[4];
     if (foot.is_aimed)
         foot.last.count = 0;
     else

@@ -47,11 +47,15 @@
 // The most that s of `slide` may be, where the slip all but vanishes: so that its products stay finite
 #define MOST_PART 1e6f
 // A change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
-// most. Of what lands, the share of its friction: it keeps what is wrong then.
+// most. Of what lands, the share of its friction: it keeps what is wrong then. What is set down, with a load that is
+// new but for a quarter, is rocked by what is wrong.
 #define UNSETTLED 0.1f
-#define UNSETTLED_LANDING 0.02f
 #define UNSETTLED_SPEED 0.005f
-#define SETTLING 4
+#define UNSETTLED_LANDING 0.02f
+#define UNSETTLED_SET_DOWN 0.02f
+#define UNSETTLED_SET_DOWN_SPEED 0.001f
+#define SET_DOWN 0.75f
+#define SETTLING 12
 // The greatest share of the rest that a run of a row leaves: a cube's is 0.6, and parts of bodies that are held
 // elsewhere too are stretched by 4 at most.
 #define MOST_SHARE 0.75f

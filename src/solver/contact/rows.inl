@@ -612,8 +612,10 @@ FE_INLINE wide_mask NAMED(unsettled)(const ROW *row, const pair *p, wide change,
     wide_mask gentle = w_greater(w_set(c->impact), rise * response);
     wide_mask lands = w_and(NAMED(has_many)(row), NAMED(is_impact)(load, rise, response, c));
     if (kind & FE__ROW_SPECIAL) lands = w_and(lands, w_not(w_greater(x->restitution, w_set(0.0f))));
-    wide least = w_choose(gentle, UNSETTLED * load, UNSETTLED_LANDING * friction);
-    return w_and(w_or(gentle, lands), w_greater(change, least * response + UNSETTLED_SPEED));
+    wide_mask set_down = w_and(NAMED(has_many)(row), w_and(gentle, w_greater(rise, SET_DOWN * load)));
+    wide least = w_choose(gentle, UNSETTLED * load, UNSETTLED_LANDING * friction) * response + UNSETTLED_SPEED;
+    least = w_choose(set_down, UNSETTLED_SET_DOWN * load * response + UNSETTLED_SET_DOWN_SPEED, least);
+    return w_and(w_or(gentle, lands), w_greater(change, least));
 }
 
 // Friction and points that run by turns approach their result by parts, each the share r of the one before it. After d0
@@ -774,7 +776,7 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__records *of, const fe__lane
         wide gain = NAMED(solve_normals)(row, c, &p, kind, 0);
         if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
         wide change = NAMED(solve_friction)(row, &p, w_set(1.0f), kind);
-        if (w_any(w_greater(change, w_set(UNSETTLED_SPEED)))) {
+        if (w_any(w_greater(change, w_set(UNSETTLED_SET_DOWN_SPEED)))) {
             wide rise = NAMED(rise_of)(row, gain, kind);
             wide_mask unsettled = NAMED(unsettled)(row, &p, change, rise, c, kind);
             if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, rise, kind);
