@@ -42,12 +42,13 @@ static fe_dvec3 perpendicular(fe_dvec3 d)
 
 // ---- the first tetrahedron ------------------------------------------------------------------------------------------
 // Adds the farthest vertex along one of the directions, if it is out of the point, line or plane that the vertices
-// span.
+// span. The size grows with what is met: of two that touch where GJK began, it knows none yet.
 static int32_t add_off_span(polytope *p, const fe__cores *cores, const fe_dvec3 *directions, int32_t count)
 {
     for (int32_t i = 0; i < 2 * count; ++i) {
         fe_dvec3 d = fe__dscale(i & 1 ? -1.0 : 1.0, directions[i >> 1]);
         fe__vertex w = fe__cores_support(cores, d);
+        p->size = fe__maxd(p->size, sqrt(fe__ddot(w.difference, w.difference)));
         if (fe__ddot(d, fe__dsub(w.difference, difference(p, 0))) <= FLAT * p->size) continue;
         p->vertex[p->vertex_count++] = w;
         return 1;
