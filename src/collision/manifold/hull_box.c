@@ -14,9 +14,9 @@ static const fe__hull_face faces[FACES] = {{0, 4, 0, 0},  {4, 4, 0, 0},  {8, 4, 
 
 // In half widths: the vertices; of each edge the vertex with the lower number, and the way from there to the other
 _Alignas(64) static const
-    float vertices[3][FE__HULL_LANES] = {{-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
-                                         {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
-                                         {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1}};
+    float signs[3][FE__HULL_LANES] = {{-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                      {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                      {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1}};
 _Alignas(64) static const
     float tails[3][FE__HULL_LANES] = {{-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1, -1},
                                       {-1, -1, 1, -1, -1, 1, -1, -1, -1, -1, 1, 1, -1, -1, -1, -1},
@@ -43,7 +43,7 @@ const fe__hull fe__unit_box = {.vertex_count = VERTICES,
                                .thickness = 2.0f,
                                .inner_radius = 1.0f,
                                .extent = 2.0f,
-                               .vertices = {vertices[0], vertices[1], vertices[2]},
+                               .vertices = {signs[0], signs[1], signs[2]},
                                .normals = {normals[0], normals[1], normals[2]},
                                .tails = {tails[0], tails[1], tails[2]},
                                .vectors = {vectors[0], vectors[1], vectors[2]},
@@ -62,7 +62,7 @@ void fe__box_as_hull(const fe__form *box, fe__box_hull *out)
     const float half[3] = {box->half.x, box->half.y, box->half.z};
     float least = fe__minf(half[0], fe__minf(half[1], half[2])), most = fe__maxf(half[0], fe__maxf(half[1], half[2]));
     for (int32_t k = 0; k < 3; ++k) {
-        scale(half[k], vertices[k], out->vertices[k]);
+        scale(half[k], signs[k], out->vertices[k]);
         scale(half[k], tails[k], out->tails[k]);
         scale(half[k], vectors[k], out->vectors[k]);
     }
