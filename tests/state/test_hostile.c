@@ -1,5 +1,6 @@
 // test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and
 // nothing changed; or the world lives: it steps, it is saved, and what is read of it is a number.
+#include "collision/form/clip.h"
 #include "state/format.h"
 #include "state/snapshot_bytes.h"
 #include "state/table.h"
@@ -401,6 +402,41 @@ static void an_inverse_mass_is_that_of_the_mass(void **state)
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+// What a choice left out of a pair's faces is one of four; wider numbers than its byte holds count as they are. Any of
+// the four is taken for any pair: it says only whether the points are looked at again
+static void what_is_left_out_is_one_of_four(void **state)
+{
+    (void)state;
+    static const int32_t numbers[] = {-1, FE_LEFT_REST + 1, 256, 256 + FE_LEFT_SOME, INT32_MIN};
+    fe_world *world = make_scene(&script_solids, 60);
+    bytes whole = save_whole(world);
+    const fe__field *field = fe__tables[FE__TABLE_TOUCHING].fields;
+    while (strcmp(field->name, "left_out") != 0) ++field;
+    int64_t place = place_in_row(FE__TABLE_TOUCHING, field);
+    int32_t rows = (int32_t)take(whole.data + section_at(whole, FE__TABLE_TOUCHING) + SECTION, 8), leaves_out = 0;
+    for (int32_t row = 0; row < rows; ++row) {
+        leaves_out += take(row_of(whole, FE__TABLE_TOUCHING, row) + place, 4) != FE_LEFT_NONE;
+        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+            bytes b = {malloc((size_t)whole.size), whole.size};
+            memcpy(b.data, whole.data, (size_t)whole.size);
+            put_u32(row_of(b, FE__TABLE_TOUCHING, row) + place, (uint32_t)numbers[k]);
+            expect_refused(world, b, "left_out is ");
+        }
+    }
+    FE_TRUE(leaves_out > 0);
+    for (uint32_t left_out = FE_LEFT_NONE; left_out <= FE_LEFT_REST; ++left_out) {
+        bytes b = {malloc((size_t)whole.size), whole.size};
+        memcpy(b.data, whole.data, (size_t)whole.size);
+        for (int32_t row = 0; row < rows; ++row) put_u32(row_of(b, FE__TABLE_TOUCHING, row) + place, left_out);
+        mend(b);
+        FE_TRUE(fe_world_restore(world, NULL, b.data, b.size) == FE_OK);
+        free(b.data);
+        live(world);
+    }
+    free(whole.data);
+    FE_TRUE(fe_world_destroy(world) == FE_OK);
+}
+
 // A number of any size in one place is refused, or the world steps, and all that is read of it and all that it saves
 // are numbers that it takes itself
 static void a_number_of_any_size_is_refused_or_sound(const script *s, int32_t steps, int32_t count, uint32_t *seed)
@@ -506,6 +542,7 @@ int main(void)
         cmocka_unit_test(nodes_that_nobody_meets_are_refused),
         cmocka_unit_test(a_tree_has_no_room_for_millions),
         cmocka_unit_test(an_inverse_mass_is_that_of_the_mass),
+        cmocka_unit_test(what_is_left_out_is_one_of_four),
         cmocka_unit_test(numbers_of_any_size_are_refused_or_sound),
         cmocka_unit_test(brief_under_random_numbers),
         cmocka_unit_test(crowd_under_random_numbers),
