@@ -236,6 +236,28 @@ static void an_edge_across_a_face_has_points_at_both_rims(void **state)
     }
 }
 
+// The same of a round bar across a drum, or across a bar with corners: as long as both rims are under it
+static void a_side_across_a_face_has_points_at_both_rims(void **state)
+{
+    (void)state;
+    const fe__form drum = {.type = FE__FORM_CYLINDER, .half = {0.04f, 0.1f, 0.04f}}, bar = box(0.04f, 0.1f, 0.2f),
+                   b = {.type = FE__FORM_CYLINDER, .half = {0.04f, 0.2f, 0.04f}};
+    const double right = 1.57079632679489662;
+    for (int32_t i = 0; i < 200; ++i) {
+        double angle = uniform(-0.06, 0.06), deep = 0.0401 * tan(fabs(angle)) + uniform(0.0, 0.02);
+        fe_quat q = fe__normalized(fe__product(turn_about((fe_dvec3){0.0, 0.0, 1.0}, right + angle),
+                                               turn_about((fe_dvec3){0.0, 1.0, 0.0}, uniform(-3.1, 3.1))));
+        fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 / cos(angle) - deep), 0.0f), q);
+        fe__manifold m = collide(i % 2 ? &drum : &bar, &b, &r, MARGIN);
+        double least = 1.0, most = -1.0;
+        for (int32_t k = 0; k < m.count; ++k) {
+            least = fe__mind(least, (double)m.points[k].point.x), most = fe__maxd(most, (double)m.points[k].point.x);
+        }
+        FE_NEAR(least, -0.04, 1e-3);
+        FE_NEAR(most, 0.04, 1e-3);
+    }
+}
+
 // ---- edges side by side --------------------------------------------------------------------------------------------
 // B, turned by twice `lean` about z and by `askew` about the normal half way between two faces, with the middle of its
 // edge at (-1/2, 1/2) `gap` away from A's at (1/2, 1/2), `aside` along it, `off` across: the boards of an A-frame.
@@ -494,6 +516,7 @@ int main(void)
         cmocka_unit_test(crossed_capsules_touch_at_one_point),
         cmocka_unit_test(capsules_askew_are_held_at_three_points),
         cmocka_unit_test(an_edge_across_a_face_has_points_at_both_rims),
+        cmocka_unit_test(a_side_across_a_face_has_points_at_both_rims),
         cmocka_unit_test(leaning_boxes_touch_along_their_edges),
         cmocka_unit_test(the_normal_turns_with_edges_that_pass_each_other),
         cmocka_unit_test(a_capsule_lies_on_faces_and_edges),

@@ -84,8 +84,10 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     fe__disc d = disc_over(&frame, disc, other, n);
     float rounding = 1e-6f * (disc->rim + fe__length(fe__sub(other->vertex[0], frame.centre)));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
-    if (found->overlap && lowest_of_all(&d, is_incident, side, other->count) - radii < least) return 0;
     int32_t count = fe__clip_disc(&d, side, other->count, 0.1f * tie + rounding, margin + radii, vertex);
+    if (found->overlap && lowest_of_all(&d, is_incident, side, other->count) - radii < least &&
+        !fe__is_sunk(vertex, count, radii))
+        return 0;
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     fe__foot foot = {.is_known = 0};
