@@ -56,6 +56,12 @@ fe__load fe__load_on_corners(const fe_world *world, int32_t pair, const fe__plac
                       fe__mul_transposed(&v->rotation, l.along), last_choice(world, pair, left_out)};
 }
 
+fe__load fe__tell_pair_load(const fe__load_asked *asked)
+{
+    const fe__pair_load *l = (const fe__pair_load *)asked;
+    return fe__load_on_corners(l->world, l->pair, l->at, l->v);
+}
+
 int32_t fe__load_outgrows(const fe_world *world, int32_t pair)
 {
     // Where all but a tenth of the load is borne by two of the points, it lies beyond

@@ -17,13 +17,22 @@ static inline int32_t fe__has_many_corners(const fe__form *form)
     return fe__form_is_curved(form) || fe__form_is_hull(form);
 }
 
-// Nobody asks for the load on forms whose faces have few corners: none is known.
-static inline fe__load fe__load_of(const fe_world *world, int32_t pair, const fe__places *at, const fe__view *v)
+// Of forms whose faces have few corners the load chooses nothing.
+static inline int32_t fe__load_chooses(const fe__view *v)
 {
-    if (fe__has_many_corners(&v->a->form) || fe__has_many_corners(&v->b->form))
-        return fe__load_on_corners(world, pair, at, v);
-    return (fe__load){.last = {.count = 0}};
+    return fe__has_many_corners(&v->a->form) || fe__has_many_corners(&v->b->form);
 }
+
+// The load on a pair, for the kernel that asks. What it points to stays as long as it does.
+typedef struct fe__pair_load {
+    fe__load_asked asked;
+    const fe_world *world;
+    int32_t pair;
+    const fe__places *at;
+    const fe__view *v;
+} fe__pair_load;
+
+fe__load fe__tell_pair_load(const fe__load_asked *asked); // of a fe__pair_load
 
 // Of a pair whose points were chosen by the load: 1: the load is near the edge of what they span, and others may hold
 // it better

@@ -100,8 +100,10 @@ static void predict_there(const fe__step *step, const fe__contact *m, const fe__
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
-    out->found.load = fe__load_of(world, (int32_t)(m - world->contacts), at, &out->v);
+    const fe__pair_load load = {{fe__tell_pair_load}, world, (int32_t)(m - world->contacts), at, &out->v};
+    out->found.load = fe__load_chooses(&out->v) ? &load.asked : NULL;
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
+    out->found.load = NULL; // it ends here
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, fall, &out->found);
 }
 
@@ -473,7 +475,8 @@ static int32_t collide(const fe__step *step, int32_t pair, fe__apart *apart, int
     fe__manifold found; // its points stay unwritten
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     if (p->axis >= 0) found.last = kernels_normal(m, &v);
-    found.load = fe__load_of(world, pair, &at, &v);
+    const fe__pair_load load = {{fe__tell_pair_load}, world, pair, &at, &v};
+    found.load = fe__load_chooses(&v) ? &load.asked : NULL;
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     int32_t passing = passed && found.count; // a seam may take points away from what passes
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), 0.0f, &found);

@@ -123,7 +123,8 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     fe__foot foot = {.is_known = 0};
     uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16, last[4];
     if (count > 4) {
-        foot = fe__foot_in_plane(&manifold->load, frame.origin, frame.u, frame.v, frame.n);
+        const fe__load load = fe__tell_load(manifold->load);
+        foot = fe__foot_in_plane(&load, frame.origin, frame.u, frame.v, frame.n);
         fe__names_of_vertices(&foot.last, ~(uint32_t)0xffff, faces, last);
     }
     int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie, &foot, &manifold->left_out);
@@ -240,7 +241,8 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
                                     const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
     facing f = {.form = {a, b}, .b_in_a = b_in_a};
-    find_feet(&f, &manifold->load, found);
+    const fe__load load = fe__tell_load(manifold->load);
+    find_feet(&f, &load, found);
     face_towards(&f, 0, found->normal);
     face_towards(&f, 1, fe__neg(found->normal));
     int32_t is_point = f.face[0].count == 1 || f.face[1].count == 1,

@@ -8,7 +8,8 @@ void fe__collide_plane_curved(const fe__form *a, const fe__form *b, const fe__re
 {
     fe_vec3 n = a->normal, down = fe__neg(fe__mul_transposed(&b_in_a->rotation, n));
     double middle = fe__ddot(fe__widen(n), fe__widen(b_in_a->position)) - (double)a->distance;
-    fe__load load = fe__load_in_frame(&manifold->load, b_in_a->position, &b_in_a->rotation); // in B's
+    const fe__load in_a = fe__tell_load(manifold->load),
+                   load = fe__load_in_frame(&in_a, b_in_a->position, &b_in_a->rotation); // in B's
     fe_vec3 under = fe__scale((float)middle, down), foot;
     int32_t is_known = fe__find_foot(&load, under, down, &foot);
     fe__face face;

@@ -92,8 +92,10 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     fe__foot foot = {.is_known = 0};
     int32_t pattern = pattern_of(disc, other, vertex, count), is_whole = count == 4 && disc->pattern == FE_RIM_AIMED;
-    if (count > 4 && pattern != FE_RIM_LEANS)
-        foot = fe__foot_in_plane(&manifold->load, frame.centre, frame.u, frame.v, frame.n);
+    if (count > 4 && pattern != FE_RIM_LEANS) {
+        const fe__load load = fe__tell_load(manifold->load);
+        foot = fe__foot_in_plane(&load, frame.centre, frame.u, frame.v, frame.n);
+    }
     foot.is_aimed = pattern == FE_RIM_AIMED; // its points are new each time
     // whichever is the reference: a wide disc that leans gives way to the other, and its points stay what they are
     uint32_t of_a = (flip ? incident : reference)->id & 0x7f, of_b = (flip ? reference : incident)->id & 0xff;

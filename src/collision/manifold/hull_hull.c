@@ -15,9 +15,10 @@
 
 typedef struct hull_pair {
     const fe__hull *a, *b;
-    fe__relative b_in_a; // of the hulls' frames
-    float tie, slack;    // m; slack: by which a face reaches beyond its rim
-    fe__load load;       // frame of A's hull
+    fe__relative b_in_a;        // of the hulls' frames
+    float tie, slack;           // m; slack: by which a face reaches beyond its rim
+    const fe__load_asked *load; // frame of A's form
+    fe_vec3 offset;             // of A's hull in its form
 } hull_pair;
 
 // ---- the axis ------------------------------------------------------------------------------------------------------
@@ -179,7 +180,9 @@ static void project(const plane_frame *frame, const fe__face *face, fe__clip_ver
 // in the frame of the reference's hull
 static fe__load load_of(const hull_pair *q, const face_pair *p)
 {
-    return p->own == q->a ? q->load : fe__load_in_frame(&q->load, q->b_in_a.position, &q->b_in_a.rotation);
+    fe__load load = fe__tell_load(q->load);
+    load.at = fe__sub(load.at, q->offset);
+    return p->own == q->a ? load : fe__load_in_frame(&load, q->b_in_a.position, &q->b_in_a.rotation);
 }
 
 // Cuts the other's face by the reference; points and normal are in the frame of the reference's hull.
@@ -365,8 +368,7 @@ static void touch_hulls(const placed_hull *a, const placed_hull *b, const fe__re
     float smallest = fe__minf(q.a->inner_radius, q.b->inner_radius), largest = fe__maxf(q.a->extent, q.b->extent);
     q.tie = fe__tie(smallest);
     q.slack = 1e-4f * smallest + 1e-7f * largest;
-    q.load = manifold->load;
-    q.load.at = fe__sub(q.load.at, a->offset);
+    q.load = manifold->load, q.offset = a->offset;
     touch(&q, margin, manifold);
     for (int32_t i = 0; i < manifold->count; ++i)
         manifold->points[i].point = fe__add(manifold->points[i].point, a->offset);

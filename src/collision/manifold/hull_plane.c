@@ -30,7 +30,7 @@ void fe__collide_plane_hull(const fe__form *a, const fe__form *b, const fe__rela
     fe__stay_apart(manifold, lowest, n);
     fe__foot foot = {.is_known = 0};
     if (near > 4) {
-        fe__load load = fe__load_in_frame(&manifold->load, origin, &b_in_a->rotation);
+        const fe__load in_a = fe__tell_load(manifold->load), load = fe__load_in_frame(&in_a, origin, &b_in_a->rotation);
         foot = fe__foot_in_plane(&load, fe__scale(-middle, up), u, v, up);
     }
     near = fe__reduce_to_four(vertex, near, 0.1f * fe__tie(fe__form_thickness(b)), &foot, &manifold->left_out);

@@ -20,10 +20,10 @@ typedef struct fe__manifold {
     int32_t count;  // 0..4
     int32_t axis;   // kernel's own, -1: none yet
     float axis_separation;
-    fe_vec3 last;     // with an axis: the normal that was found last, A's frame
-    int32_t round;    // 1: the normal turns when the forms shift by little, as between round forms
-    fe__load load;    // given, A's frame
-    int32_t left_out; // FE_LEFT_*: more of the faces touches than the points
+    fe_vec3 last;               // with an axis: the normal that was found last, A's frame
+    int32_t round;              // 1: the normal turns when the forms shift by little, as between round forms
+    const fe__load_asked *load; // given: in A's frame; NULL: nobody knows
+    int32_t left_out;           // FE_LEFT_*: more of the faces touches than the points
     fe__manifold_point points[FE_MAX_POINTS];
 } fe__manifold;
 
