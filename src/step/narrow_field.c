@@ -117,7 +117,8 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     fe__find_surroundings(w, &l->v, p->field, p->other, fe__mul(&rotation, fe__form_middle(&p->other->form)), &around);
     fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
     l->v.relative.rotation = rotation;
-    if (fe__load_chooses(&l->v)) terrain.load = fe__load_on_corners(w, p->pair, &l->at, &l->v);
+    const fe__pair_load load = {{fe__tell_pair_load}, w, p->pair, &l->at, &l->v};
+    terrain.load = fe__load_chooses(&l->v) ? &load.asked : NULL;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
 

@@ -50,9 +50,9 @@ typedef struct fe__terrain {
     const fe_vec3 *known_face; // fe__patch.face of each
     const fe_dvec3 *known_at;  // a point of each, in the surface's frame
     int32_t known_count;
-    int32_t is_last; // the look is one at the end of B's way (ground.near)
-    float fall;      // m, how far B may have fallen, at the look's pose, below what carries it
-    fe__load load;   // common frame
+    int32_t is_last;            // the look is one at the end of B's way (ground.near)
+    float fall;                 // m, how far B may have fallen, at the look's pose, below what carries it
+    const fe__load_asked *load; // in the common frame of fe__collide_terrain; NULL: nobody knows
 } fe__terrain;
 
 #endif

@@ -154,12 +154,13 @@ static int32_t left_out_of(const fe__gathering *g, const fe__raw_patch *raw)
     return g->rims >> FE_RIM_LIES & 1 ? FE_LEFT_SOME : FE_LEFT_REST;
 }
 
-static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
-                               fe__patch patches[FE__PATCHES], float *gap)
+// `away`: of the form's centre in the caller's frame
+static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, fe_vec3 away,
+                               float margin, fe__patch patches[FE__PATCHES], float *gap)
 {
     fe__gathering g;
     g.terrain = t, g.form = b, g.rotation = rotation, g.margin = margin, g.felt = FELT * fe__form_thickness(b),
-    g.single = fe__form_is_ball(b), g.rims = 0, g.count = 0;
+    g.single = fe__form_is_ball(b), g.rims = 0, g.away = away, g.has_load = 0, g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     fe__leave_carried(&g);
@@ -168,7 +169,7 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
         fe__raw_patch *raw = g.patches + i;
         if (fe__form_is_curved(b)) fe__keep_side_ends(raw, g.tie);
         if (b->radius > 0.0f && !g.single) fe__keep_core_ends(raw, rotation->y, g.tie);
-        fe__reduce_patch(raw, &t->load, g.rims >> FE_RIM_AIMED & 1, g.tie);
+        fe__reduce_patch(&g, raw, g.rims >> FE_RIM_AIMED & 1);
         patches[i] = (fe__patch){.normal = raw->normal,
                                  .face = raw->face,
                                  .count = raw->count,
@@ -198,7 +199,7 @@ static void move_surroundings(const fe__surroundings *from, fe_vec3 away, fe__su
 int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
                             fe__patch patches[FE__PATCHES], float *gap)
 {
-    if (!fe__form_is_hull(b)) return collide_centred(t, b, rotation, margin, patches, gap);
+    if (!fe__form_is_hull(b)) return collide_centred(t, b, rotation, fe__vec3(0.0f, 0.0f, 0.0f), margin, patches, gap);
     fe_vec3 centre = fe__hull_form_centre(b), away = fe__mul(rotation, centre);
     fe__form centred = *b;
     centred.offset = fe__sub(b->offset, centre);
@@ -206,8 +207,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     move_surroundings(t->around, away, &around);
     fe__terrain there = *t;
     there.origin = fe__dadd(t->origin, fe__widen(away)), there.around = &around;
-    there.load.at = fe__sub(t->load.at, away);
-    int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
+    int32_t count = collide_centred(&there, &centred, rotation, away, margin, patches, gap);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < patches[i].count; ++k)
             patches[i].points[k].point = fe__add(patches[i].points[k].point, away);

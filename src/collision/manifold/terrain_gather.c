@@ -186,8 +186,18 @@ static void find_last(const fe__raw_patch *p, int32_t count, fe__choice *last, u
     last->ids = place;
 }
 
+const fe__load *fe__gathering_load(fe__gathering *g)
+{
+    if (!g->has_load) {
+        g->load = fe__tell_load(g->terrain->load);
+        g->load.at = fe__sub(g->load.at, g->away);
+        g->has_load = 1;
+    }
+    return &g->load;
+}
+
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
-static int32_t leave_four(fe__raw_patch *p, int32_t count, const fe__load *load, int32_t is_aimed, float tie)
+static int32_t leave_four(fe__gathering *g, fe__raw_patch *p, int32_t count, int32_t is_aimed)
 {
     fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f),
             u = fe__cross(n, a);
@@ -199,11 +209,11 @@ static int32_t leave_four(fe__raw_patch *p, int32_t count, const fe__load *load,
         vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point),
                                       p->points[i].separation, (uint32_t)i};
     fe_vec3 on_plane = fe__scale(fe__dot(n, p->points[0].point), n); // u and v count from the frame's origin
-    fe__foot foot = fe__foot_in_plane(load, on_plane, u, v, n);
+    fe__foot foot = fe__foot_in_plane(fe__gathering_load(g), on_plane, u, v, n);
     foot.is_aimed = is_aimed, foot.from_origin = 1; // the body's centre
     uint32_t last[FE_MAX_POINTS];
     find_last(p, count, &foot.last, last);
-    count = fe__reduce_to_four(vertex, count, tie, &foot, &p->left_out);
+    count = fe__reduce_to_four(vertex, count, g->tie, &foot, &p->left_out);
     for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
     for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
     return count;
@@ -234,7 +244,7 @@ static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 
 // At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest
 // four of all would leave out what carries.
-void fe__reduce_patch(fe__raw_patch *p, const fe__load *load, int32_t is_aimed, float tie)
+void fe__reduce_patch(fe__gathering *g, fe__raw_patch *p, int32_t is_aimed)
 {
     const float touching = 0.001f; // m, a few overlaps of a body at rest
     if (p->count <= FE_MAX_POINTS) return;
@@ -242,7 +252,7 @@ void fe__reduce_patch(fe__raw_patch *p, const fe__load *load, int32_t is_aimed, 
     for (int32_t i = 0; i < p->count; ++i)
         if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touching) swap(p, i, near++);
     if (near >= FE_MAX_POINTS) {
-        p->count = leave_four(p, near, load, is_aimed, tie);
+        p->count = leave_four(g, p, near, is_aimed);
         return;
     }
     for (; near < FE_MAX_POINTS; ++near) choose_farthest(p, near);
@@ -261,7 +271,7 @@ void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float ti
     patch->count = kept;
 }
 
-static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t triangle)
+static void add_point(fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t triangle)
 {
     if (g->single && p->count) {
         if (point->separation >= p->points[0].separation) return;
@@ -276,7 +286,7 @@ static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifo
         return;
     }
     // of what comes yet, nobody knows whether it holds the load better than the widest four of these
-    if (p->count == FE__RAW_POINTS) fe__reduce_patch(p, &g->terrain->load, 1, g->tie);
+    if (p->count == FE__RAW_POINTS) fe__reduce_patch(g, p, 1);
     p->points[p->count++] = *point;
     if (point->separation < p->deepest) p->deepest = point->separation, p->triangle = triangle;
 }

@@ -24,9 +24,15 @@ typedef struct fe__gathering {
     float same_place; // m, points of two triangles at their seam
     int32_t single;   // one point a patch
     int32_t rims;     // 1 << FE_RIM_* of those whose points were cut
+    fe_vec3 away;     // of the form's centre in the frame of terrain->load
+    int32_t has_load;
+    fe__load load; // see fe__gathering_load
     int32_t count;
     fe__raw_patch patches[FE__PATCHES + 1];
 } fe__gathering;
+
+// The load in the frame of the points, asked for once
+const fe__load *fe__gathering_load(fe__gathering *g);
 
 // A surface has no inside: what is far below a triangle is not felt by it, unless the body's centre is above it, or
 // under the ground.
@@ -47,6 +53,6 @@ void fe__leave_carried(fe__gathering *g);
 // comes and goes as the line rolls. Points deeper than the two by more than `tie` stay.
 void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie);
 // Leaves at most FE_MAX_POINTS. `is_aimed`: see fe__foot
-void fe__reduce_patch(fe__raw_patch *patch, const fe__load *load, int32_t is_aimed, float tie);
+void fe__reduce_patch(fe__gathering *g, fe__raw_patch *patch, int32_t is_aimed);
 
 #endif
