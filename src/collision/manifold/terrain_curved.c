@@ -103,18 +103,21 @@ typedef struct face_cut {
     fe__cut_piece piece;
 } face_cut;
 
-// May a face of it have more corners than it gives?
-static int32_t gives_some(const fe__form *form)
+// The load is asked for where the face has more corners than are given: on a rim, and on few hulls.
+static void find_face(const contest *c, int32_t lowest_vertex, fe__face *face)
 {
-    return !fe__form_is_hull(form) || form->hull->vertex_count > FE_FACE_VERTICES;
+    fe_vec3 n = c->tile->normal, foot;
+    if (fe__form_is_hull(c->form)) {
+        fe__tile_body_face(c->form, c->rotation, fe__neg(n), lowest_vertex, NULL, face);
+        if (c->form->hull->faces[face->id].count <= FE_FACE_VERTICES) return;
+    }
+    int32_t has_foot = fe__find_foot(fe__gathering_load(c->g), c->tile->form.vertex[0], n, &foot);
+    fe__tile_body_face(c->form, c->rotation, fe__neg(n), lowest_vertex, has_foot ? &foot : NULL, face);
 }
 
 static void cut_face(const contest *c, int32_t lowest_vertex, face_cut *f)
 {
-    fe_vec3 n = c->tile->normal, foot;
-    int32_t has_foot =
-        gives_some(c->form) && fe__find_foot(fe__gathering_load(c->g), c->tile->form.vertex[0], n, &foot);
-    fe__tile_body_face(c->form, c->rotation, fe__neg(n), lowest_vertex, has_foot ? &foot : NULL, &f->face);
+    find_face(c, lowest_vertex, &f->face);
     c->g->rims |= f->face.rim > 0.0f ? 1 << f->face.pattern : 0;
     f->cut = (fe__cut){.reference = c->tile->form.vertex,
                        .incident = f->face.vertex,
