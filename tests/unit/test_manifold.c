@@ -470,6 +470,7 @@ static void the_old_points_do_not_matter(void **state)
         fe__manifold clean, dirty;
         memset(&clean, 0, sizeof clean);
         memset(&dirty, 0x5a, sizeof dirty);
+        clean.load = dirty.load = NULL; // given
         clean.axis = dirty.axis = i % 16 - 1;
         clean.axis_separation = dirty.axis_separation = (float)uniform(-0.01, 0.01);
         fe__collide(&a, &b, &r, MARGIN, &clean);
