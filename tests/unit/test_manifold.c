@@ -236,11 +236,11 @@ static void an_edge_across_a_face_has_points_at_both_rims(void **state)
     }
 }
 
-// The same of a round bar across a drum, or across a bar with corners: as long as both rims are under it
-static void a_side_across_a_face_has_points_at_both_rims(void **state)
+// The same of a round bar across a drum: as long as both rims are under it
+static void a_side_across_a_cap_has_points_at_both_rims(void **state)
 {
     (void)state;
-    const fe__form drum = {.type = FE__FORM_CYLINDER, .half = {0.04f, 0.1f, 0.04f}}, bar = box(0.04f, 0.1f, 0.2f),
+    const fe__form drum = {.type = FE__FORM_CYLINDER, .half = {0.04f, 0.1f, 0.04f}},
                    b = {.type = FE__FORM_CYLINDER, .half = {0.04f, 0.2f, 0.04f}};
     const double right = 1.57079632679489662;
     for (int32_t i = 0; i < 200; ++i) {
@@ -248,7 +248,7 @@ static void a_side_across_a_face_has_points_at_both_rims(void **state)
         fe_quat q = fe__normalized(fe__product(turn_about((fe_dvec3){0.0, 0.0, 1.0}, right + angle),
                                                turn_about((fe_dvec3){0.0, 1.0, 0.0}, uniform(-3.1, 3.1))));
         fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 / cos(angle) - deep), 0.0f), q);
-        fe__manifold m = collide(i % 2 ? &drum : &bar, &b, &r, MARGIN);
+        fe__manifold m = collide(&drum, &b, &r, MARGIN);
         double least = 1.0, most = -1.0;
         for (int32_t k = 0; k < m.count; ++k) {
             least = fe__mind(least, (double)m.points[k].point.x), most = fe__maxd(most, (double)m.points[k].point.x);
@@ -517,7 +517,7 @@ int main(void)
         cmocka_unit_test(crossed_capsules_touch_at_one_point),
         cmocka_unit_test(capsules_askew_are_held_at_three_points),
         cmocka_unit_test(an_edge_across_a_face_has_points_at_both_rims),
-        cmocka_unit_test(a_side_across_a_face_has_points_at_both_rims),
+        cmocka_unit_test(a_side_across_a_cap_has_points_at_both_rims),
         cmocka_unit_test(leaning_boxes_touch_along_their_edges),
         cmocka_unit_test(the_normal_turns_with_edges_that_pass_each_other),
         cmocka_unit_test(a_capsule_lies_on_faces_and_edges),

@@ -103,15 +103,6 @@ enum {
 int32_t fe__reduce_to_four(fe__clip_vertex *vertices, int32_t count, float tie, const fe__foot *foot,
                            int32_t *left_out);
 
-// Does all that two faces have in common lie below? Then what hangs over the rim is only deeper as far as it leans, and
-// the rim alone would hold what the rest bears.
-static inline int32_t fe__is_sunk(const fe__clip_vertex *vertices, int32_t count, float radii)
-{
-    for (int32_t i = 0; i < count; ++i)
-        if (vertices[i].height > radii) return 0;
-    return count > 1;
-}
-
 // Lowers the heights of cores' vertices by the radii around them, and leaves at most four of those below the margin.
 int32_t fe__keep_near(fe__clip_vertex *vertices, int32_t count, float radii, float margin, float tie,
                       const fe__foot *foot, int32_t *left_out);

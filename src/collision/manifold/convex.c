@@ -115,9 +115,8 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     fe_vec3 diagonal = fe__sub(reference->vertex[2], reference->vertex[0]);
     float tie = fe__tie(0.25f * fe__length(diagonal));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
-    float lowest_of_all = lowest(vertex, incident->count) - radii;
+    if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
     int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding);
-    if (found->overlap && lowest_of_all < least && !fe__is_sunk(vertex, count, radii)) return 0;
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     fe__foot foot = {.is_known = 0};

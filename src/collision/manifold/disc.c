@@ -70,6 +70,15 @@ static int32_t pattern_of(const fe__face *disc, const fe__face *other, const fe_
     return NO_RIM;
 }
 
+// Does all that two faces have in common lie below? Then what hangs over the rim is only deeper as far as it leans, and
+// the rim alone would hold what the rest bears.
+static int32_t is_sunk(const fe__clip_vertex *vertices, int32_t count, float radii)
+{
+    for (int32_t i = 0; i < count; ++i)
+        if (vertices[i].height > radii) return 0;
+    return count > 1;
+}
+
 // Where the cores overlap, what hangs over the reference's rim has to come out too.
 int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float radii, int32_t flip,
                      const fe__core_touch *found, float tie, float margin, fe__manifold *manifold)
@@ -86,7 +95,7 @@ int32_t fe__cut_disc(const fe__face *reference, const fe__face *incident, float 
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
     int32_t count = fe__clip_disc(&d, side, other->count, 0.1f * tie + rounding, margin + radii, vertex);
     if (found->overlap && lowest_of_all(&d, is_incident, side, other->count) - radii < least &&
-        !fe__is_sunk(vertex, count, radii))
+        !is_sunk(vertex, count, radii))
         return 0;
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
