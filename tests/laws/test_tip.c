@@ -118,13 +118,13 @@ static double it_tips_over_the_edge_of_its_base(dice *d, char *told)
 }
 
 // What is put down flush and let go has all of its load at once. Its first substep gives it the speed g h, and may
-// leave a quarter of that where it should have stopped: it turns about its edge by g h / (4 rho), and passes what is
+// leave a seventh of that where it should have stopped: it turns about its edge by g h / (7 rho), and passes what is
 // left of the way to the angle if that is no more than T times as much. 9 T later it would lie.
 static double what_is_put_down_stands(dice *d, char *told)
 {
     trial t = any_trial(d);
     double below = 0.3 * DEGREES + 2 * t.lean + t.nearer + 2 * G * t.s.h * t.s.h / t.f.rho;
-    double angle = t.exact - below - 0.25 * G * t.s.h * t.t / t.f.rho;
+    double angle = t.exact - below - G * t.s.h * t.t / (7 * t.f.rho);
     if (angle < 0) angle = 0;
     load(&t.s, t.body, &t.f, 0, angle);
     int32_t stands = 1;
