@@ -104,7 +104,7 @@ static double it_tips_over_the_edge_of_its_base(dice *d, char *told)
     double below = 0.3 * DEGREES + 2 * t.lean + t.nearer + 2 * G * t.s.h * t.s.h / t.f.rho, above = 0.3 * DEGREES;
     double push = chance(d, 0.3) ? uniform(d, 0.5, 1.5) * t.f.c : 0;
     double dt = 1.0 / t.r.hertz, angle = 0, from = fmax(0, t.exact - below - 1 * DEGREES), fallen = -1;
-    for (double time = 0; fallen < 0 && angle < t.exact + 3 * above; time += dt) {
+    while (fallen < 0 && angle < t.exact + 3 * above) {
         angle += (angle < from ? from / (40 * t.t) : 0.02 * DEGREES / t.t) * dt;
         load(&t.s, t.body, &t.f, push, angle);
         law_run(&t.s, t.r, dt);
