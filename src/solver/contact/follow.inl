@@ -65,6 +65,11 @@ FE_INLINE void NAMED(find_friction_masses)(const ROW *row, const pair *p, int ki
     out->twist = w_inverse_or_zero(angular_response(&spin, &spin, kind));
     out->twist_tangent[0] = angular_response(&m1, &spin, kind);
     out->twist_tangent[1] = angular_response(&m2, &spin, kind);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide3 d = w_sub(load3(row->point[i].r), centre);
+        out->lever[i] = w_sqrt(w_dot(d, d));
+    }
 }
 
 // a point whose mass is 0 is not there
@@ -86,8 +91,11 @@ FE_INLINE void NAMED(find_masses)(const ROW *row, const pair *p, int kind, MASSE
 
 FE_INLINE void NAMED(store_masses)(ROW *row, const MASSES *m, wide_mask lanes)
 {
-    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].mass =
-        w_choose(lanes, m->point[i], row->point[i].mass);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        row->point[i].mass = w_choose(lanes, m->point[i], row->point[i].mass);
+        row->lever[i] = w_choose(lanes, m->lever[i], row->lever[i]);
+    }
     UNROLL for (int i = 0; i < (POINTS == 1 ? 0 : 6); ++i) row->coupling[i] =
         w_choose(lanes, m->coupling[i], row->coupling[i]);
     UNROLL for (int i = 0; i < 3; ++i) row->tangent_mass[i] = w_choose(lanes, m->tangent[i], row->tangent_mass[i]);

@@ -219,11 +219,6 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        wide3 d = w_sub(load3(row->point[i].r), load3(row->centre));
-        row->lever[i] = w_sqrt(w_dot(d, d));
-    }
     NAMED(find_softness)(row, &p, c, kind);
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, c, kind);
     row->load = NAMED(load_of)(row);

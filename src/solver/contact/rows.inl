@@ -62,7 +62,7 @@ typedef struct ROW {
     wide tangent_impulse[2];
     wide twist_mass, twist_impulse;
     wide twist_tangent[2]; // tangent velocity that a unit of twist adds
-    wide lever[POINTS];    // |r_i - centre|: within a step arms rotate, and keep it
+    wide lever[POINTS];    // |r_i - centre|
     // of lanes that follow, when the step began: points on A from A's centre, on B from B's. The last is the centre of
     // friction
     wide first_a[POINTS + 1][3], first_b[POINTS + 1][3];
@@ -70,7 +70,7 @@ typedef struct ROW {
 
 // What makes impulses of velocities: depends on arms and inertia alone
 typedef struct MASSES {
-    wide point[POINTS], coupling[POINTS == 1 ? 1 : 6], tangent[3], twist, twist_tangent[2];
+    wide point[POINTS], coupling[POINTS == 1 ? 1 : 6], tangent[3], twist, twist_tangent[2], lever[POINTS];
 } MASSES;
 
 typedef struct SPECIAL_ROW {
