@@ -239,7 +239,7 @@ GOLDEN: Dict[str, int] = {
     "BallOnPlate": 0x55C0A4A697736B6C,
     "CartPole": 0xE02C34B0EBD55290,
     "Push": 0x2C7E19237C4AD85E,
-    "Ragdoll": 0xDA73D4BD168CEBD0,
+    "Ragdoll": 0xF731C85DF99A0097,
     "Walker": 0xA18D43F37A52F4BF,
 }
 
