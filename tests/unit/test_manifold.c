@@ -215,6 +215,15 @@ static void capsules_askew_are_held_at_three_points(void **state)
     }
 }
 
+static void reach_along_x(const fe__manifold *m, double half)
+{
+    double least = 1.0, most = -1.0;
+    for (int32_t k = 0; k < m->count; ++k)
+        least = fe__mind(least, (double)m->points[k].point.x), most = fe__maxd(most, (double)m->points[k].point.x);
+    FE_NEAR(least, -half, 1e-3);
+    FE_NEAR(most, half, 1e-3);
+}
+
 // A bar on its edge across a bar of 8 cm, 5 cm deep: its tip hangs lower beyond the rim, yet it is the two rims that
 // carry it.
 static void an_edge_across_a_face_has_points_at_both_rims(void **state)
@@ -227,12 +236,7 @@ static void an_edge_across_a_face_has_points_at_both_rims(void **state)
                                                turn_about((fe_dvec3){1.0, 0.0, 0.0}, 0.78539816339744831)));
         fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 * sqrt(2.0) / cos(angle) - deep), 0.0f), q);
         fe__manifold m = collide(&a, &b, &r, MARGIN);
-        double least = 1.0, most = -1.0;
-        for (int32_t k = 0; k < m.count; ++k) {
-            least = fe__mind(least, (double)m.points[k].point.x), most = fe__maxd(most, (double)m.points[k].point.x);
-        }
-        FE_NEAR(least, -0.04, 1e-3);
-        FE_NEAR(most, 0.04, 1e-3);
+        reach_along_x(&m, 0.04);
     }
 }
 
@@ -249,12 +253,7 @@ static void a_side_across_a_cap_has_points_at_both_rims(void **state)
                                                turn_about((fe_dvec3){0.0, 1.0, 0.0}, uniform(-3.1, 3.1))));
         fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 / cos(angle) - deep), 0.0f), q);
         fe__manifold m = collide(&drum, &b, &r, MARGIN);
-        double least = 1.0, most = -1.0;
-        for (int32_t k = 0; k < m.count; ++k) {
-            least = fe__mind(least, (double)m.points[k].point.x), most = fe__maxd(most, (double)m.points[k].point.x);
-        }
-        FE_NEAR(least, -0.04, 1e-3);
-        FE_NEAR(most, 0.04, 1e-3);
+        reach_along_x(&m, 0.04);
     }
 }
 

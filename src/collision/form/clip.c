@@ -262,7 +262,7 @@ static int32_t whole_rim(const fe__disc *disc, float margin, fe__clip_vertex *ou
 {
     float lean = sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
     int32_t few = disc->height + disc->radius * lean <= margin, count = few ? 4 : FE_RIM_POINTS;
-    // the two in front, and those 127 degrees from them
+    // An aimed rim is held by the two points in front, and those 127 degrees from them.
     static const int32_t aimed[4] = {0, 1, 6, 11};
     for (int32_t i = 0; i < count; ++i) {
         int32_t on = (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS;
@@ -321,7 +321,7 @@ static bounds bounds_of(const fe__clip_vertex *p, int32_t count)
     return b;
 }
 
-// Of those as deep as the deepest the one farthest from the middle: a vertex amid an edge must not stand for a corner.
+// The vertex farthest from the middle, of those as deep as the deepest: one amid an edge must not stand for a corner.
 static int32_t deepest(const fe__clip_vertex *p, int32_t count, const bounds *b, float tie)
 {
     fe__clip_vertex middle = {0.5f * (b->low.u + b->high.u), 0.5f * (b->low.v + b->high.v), b->low.height, 0};
@@ -353,9 +353,6 @@ static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chos
     return 0;
 }
 
-// m, a few overlaps of a body at rest: what is higher than the deepest by no more may carry too
-#define CLEAR 0.001f
-
 // What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry,
 // side by side, now one is chosen and now the other, and the load swings between them.
 static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
@@ -367,13 +364,13 @@ static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie
         for (int32_t k = 1; k < chosen_count; ++k) {
             if (p[chosen[k]].height > p[chosen[highest]].height) highest = k;
         }
-        if (p[chosen[highest]].height <= level + CLEAR) return;
+        if (p[chosen[highest]].height <= level + FE__CLEAR) return;
         chosen[highest] = i;
     }
 }
 
 // ---- where the load leans ------------------------------------------------------------------------------------------
-// The middle of the vertices, and the way from there to the foot
+// The outlook is from the middle of the vertices, along the way from there to the foot.
 typedef struct outlook {
     float u, v, du, dv, square; // the square of the way's length
 } outlook;
@@ -462,8 +459,8 @@ static int32_t farthest_along(const outlook *o, const fe__clip_vertex *p, int32_
     return best;
 }
 
-// What lies deeper than the edge in front carries too: it takes the place of the higher one behind. The other stays, or
-// what rocks would fall back onto nothing.
+// A vertex deeper than the edge in front carries too: it takes the place of the higher one behind. The other one behind
+// stays, or a body that rocks would fall back onto nothing.
 static void keep_deepest(const fe__clip_vertex *p, int32_t count, float low, float tie, int32_t *four, int32_t chosen)
 {
     if (chosen < 4 || fe__minf(p[four[0]].height, p[four[1]].height) <= low + tie) return;
@@ -571,7 +568,7 @@ static int32_t choose_again(const fe__clip_vertex *p, int32_t count, const bound
                             const fe__foot *foot, int32_t four[4])
 {
     const fe__choice *last = &foot->last;
-    float carries = fe__maxf(b->low.height + tie, 0.0f) + CLEAR;
+    float carries = fe__maxf(b->low.height + tie, 0.0f) + FE__CLEAR;
     int32_t found = 0;
     if (last->left_out >= FE_LEFT_SIDES) return 0;
     for (int32_t k = 0; k < last->count; ++k)

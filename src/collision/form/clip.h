@@ -61,19 +61,21 @@ typedef struct fe__disc {
 int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int32_t count, float slack, float margin,
                       fe__clip_vertex out[FE_DISC_VERTICES]);
 
+// m, a few overlaps of a body at rest: a vertex that is higher than the deepest by no more may carry too
+#define FE__CLEAR 0.001f
+
 // How far a face may lean, m, and still be held by the points that are chosen by the load: some overlaps of a body at
 // rest, when all of its weight is on one side, or 1.1 degrees of what rocks that way. `half`: of the face's width
-static inline float fe__most_lean(float half) { return fe__maxf(0.001f, 0.02f * half); }
+static inline float fe__most_lean(float half) { return fe__maxf(FE__CLEAR, 0.02f * half); }
 
-// Where the load on a polygon presses, in its plane. Which way that is out counts from amid the vertices, or from the
-// origin where these come by and by: what is chosen of some of them must not depend on the others.
-//
-// What was chosen last stays while it holds the foot: so neither rounding nor a turn of the face changes the points.
+// The last choice stays while it holds the foot: so neither rounding nor a turn of the face changes the points.
 typedef struct fe__choice {
     const uint32_t *ids;
     int32_t count, left_out; // count 0: none, or it is not known
 } fe__choice;
 
+// The foot is where the load on a polygon presses, in its plane. Which way is out counts from amid the vertices, or from
+// the origin where these come by and by: the choice of some of them must not depend on the others.
 typedef struct fe__foot {
     int32_t is_known;
     float u, v;
@@ -87,7 +89,7 @@ typedef struct fe__foot {
 #define FE__FOOT_BACK 0.5f
 #define FE__FOOT_LEAST 0.25f
 
-// What a choice of some of a face's points leaves out
+// A choice of some of a face's points leaves out
 enum {
     FE_LEFT_NONE, // nothing that touches
     FE_LEFT_SOME,

@@ -1,9 +1,9 @@
 // hull_form.c - the hull as a form: where a scaled, shifted hull ends, and what it weighs. See hull_form.h.
 #include "collision/form/hull_form.h"
 
-#include <float.h>
-
 #include "collision/form/kinds.h"
+
+#include <float.h>
 
 fe__form fe__hull_form(const fe__hull *hull, int32_t index)
 {
@@ -74,8 +74,8 @@ fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction)
     return fe__hull_form_vertex(form, fe__hull_support(form->hull, direction));
 }
 
-// The corner on the left of the way from the middle of a face to the foot whose neighbour is on its right: that edge is
-// what the load leans over. Corners turn left around the normal. -1: the foot is near the middle
+// The load leans over the edge that the way from the middle of a face to the foot crosses: this is its corner on the
+// left of the way. Corners turn left around the normal. -1: the foot is near the middle
 static int32_t corner_over_foot(const fe__hull *hull, const fe__hull_face *f, fe_vec3 normal, fe_vec3 foot)
 {
     const float leans = 0.5f; // of the corner's distance
@@ -96,7 +96,6 @@ static int32_t corner_over_foot(const fe__hull *hull, const fe__hull_face *f, fe
 // Does the face lean no farther than what is chosen by the load may, and is the edge before that corner as low as any?
 static int32_t leans_there(const fe__hull *hull, const fe__hull_face *f, fe_vec3 direction, int32_t corner)
 {
-    const float clear = 0.001f; // m, a few overlaps of a body at rest
     float low = -FLT_MAX, high = FLT_MAX, there = -FLT_MAX;
     int32_t before = corner > 0 ? corner - 1 : f->count - 1;
     for (int32_t i = 0; i < f->count; ++i) {
@@ -104,7 +103,7 @@ static int32_t leans_there(const fe__hull *hull, const fe__hull_face *f, fe_vec3
         low = fe__maxf(low, along), high = fe__minf(high, along);
         if (i == corner || i == before) there = fe__maxf(there, along);
     }
-    return there >= low - clear && low - high <= 2.0f * fe__most_lean(0.5f * hull->extent);
+    return there >= low - FE__CLEAR && low - high <= 2.0f * fe__most_lean(0.5f * hull->extent);
 }
 
 // Each vertex of a polygon with fewer stands for some corners side by side: its name stays theirs, whichever it is at.
@@ -116,7 +115,7 @@ static int32_t vertex_for(const fe__hull_face *f, int32_t count, int32_t corner)
 // The edge before that corner is whole, and so are those on either side of it where there is room.
 static void keep_edge(const fe__hull *hull, const fe__hull_face *f, int32_t corner, fe__face *out)
 {
-    static const int32_t ahead[4] = {1, -2, 0, -1}; // what comes later stays
+    static const int32_t ahead[4] = {1, -2, 0, -1}; // the later of two stays
     int32_t here = vertex_for(f, out->count, corner);
     for (int32_t k = 0; k < 4; ++k) {
         int32_t c = (corner + ahead[k] + f->count) % f->count, i = vertex_for(f, out->count, c);

@@ -1,7 +1,7 @@
 // load.h - the line along which what rests bears on what is below it, and where that line meets a plane.
 //
 // The narrow phase knows it (step/load.c). Where a face has more corners than a manifold has points, the kernels keep
-// those that the load leans over: a body tips over the edge of its face, not of what is left of it.
+// the corners that the load leans over: a body tips over the edge of its face, not of what is left of it.
 #ifndef FE_COLLISION_FORM_LOAD_H
 #define FE_COLLISION_FORM_LOAD_H
 #include "collision/form/clip.h"
@@ -41,7 +41,8 @@ static inline fe__foot fe__foot_in_plane(const fe__load *load, fe_vec3 origin, f
     return (fe__foot){.is_known = 1, .u = fe__dot(u, away), .v = fe__dot(v, away), .last = load->last};
 }
 
-// Of a choice's ids those bits that name the vertex within the faces, where the others name these; else no choice
+// An id names a vertex within two faces by some of its bits, and the faces by the others. This leaves the vertices' names
+// of a choice that was made of these faces, and no choice of others.
 static inline void fe__names_of_vertices(fe__choice *last, uint32_t of_faces, uint32_t faces, uint32_t names[4])
 {
     for (int32_t i = 0; i < last->count; ++i) {

@@ -104,8 +104,8 @@ static float extent(const fe__face *face)
 // margin, when the deepest of them says the same as the nearest points do; else nothing. Where the cores overlap, what
 // hangs over the rim has to come out too. `flip` is 1 when the reference is B's.
 static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius,
-                          float incident_radius, int32_t flip, const fe__core_touch *found, float margin,
-                          fe__manifold *manifold)
+                          float incident_radius, int32_t flip, const fe__core_touch *found, const fe__load *load,
+                          float margin, fe__manifold *manifold)
 {
     float radii = reference_radius + incident_radius, rounding = 1e-6f * fe__maxf(extent(reference), extent(incident));
     fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
@@ -122,8 +122,7 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     fe__foot foot = {.is_known = 0};
     uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16, last[4];
     if (count > 4) {
-        const fe__load load = fe__tell_load(manifold->load);
-        foot = fe__foot_in_plane(&load, frame.origin, frame.u, frame.v, frame.n);
+        foot = fe__foot_in_plane(load, frame.origin, frame.u, frame.v, frame.n);
         fe__names_of_vertices(&foot.last, ~(uint32_t)0xffff, faces, last);
     }
     int32_t near = fe__keep_near(vertex, count, radii, margin, 0.1f * tie, &foot, &manifold->left_out);
@@ -150,6 +149,7 @@ typedef struct facing {
     const fe__relative *b_in_a;
     fe__face face[2];
     float cosine[2]; // of polygons' normals and that found; else 0
+    fe__load load;   // frame of A
     int32_t has_foot;
     fe_vec3 foot[2]; // where the load presses, each in its own frame
 } facing;
@@ -176,7 +176,7 @@ static int32_t cut_by(facing *f, int32_t k, const fe__core_touch *found, float m
     if (fe__form_is_curved(other) && (incident->count == 2 || f->cosine[k] < 1.0f))
         face_towards(f, 1 - k, fe__neg(reference->normal));
     if (!(reference->rim > 0.0f || incident->rim > 0.0f))
-        return clip_faces(reference, incident, own->radius, other->radius, k, found, margin, manifold);
+        return clip_faces(reference, incident, own->radius, other->radius, k, found, &f->load, margin, manifold);
     float tie = fe__tie(fe__minf(fe__form_thickness(own), fe__form_thickness(other)));
     return fe__cut_disc(reference, incident, own->radius + other->radius, k, found, tie, margin, manifold);
 }
@@ -229,9 +229,9 @@ static int32_t touch_lines(const facing *f, const fe__core_touch *found, float m
     return fe__lay_lines(a, b, &f->face[0], &f->face[1], found, middle_of(found, a, b), tie, margin, manifold);
 }
 
-static void find_feet(facing *f, const fe__load *load, const fe__core_touch *found)
+static void find_feet(facing *f, const fe__core_touch *found)
 {
-    f->has_foot = fe__find_foot(load, found->on_a, found->normal, &f->foot[0]);
+    f->has_foot = fe__find_foot(&f->load, found->on_a, found->normal, &f->foot[0]);
     if (!f->has_foot) return;
     f->foot[1] = fe__mul_transposed(&f->b_in_a->rotation, fe__sub(f->foot[0], f->b_in_a->position));
 }
@@ -239,9 +239,8 @@ static void find_feet(facing *f, const fe__load *load, const fe__core_touch *fou
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
                                     const fe__core_touch *found, float margin, fe__manifold *manifold)
 {
-    facing f = {.form = {a, b}, .b_in_a = b_in_a};
-    const fe__load load = fe__tell_load(manifold->load);
-    find_feet(&f, &load, found);
+    facing f = {.form = {a, b}, .b_in_a = b_in_a, .load = fe__tell_load(manifold->load)};
+    find_feet(&f, found);
     face_towards(&f, 0, found->normal);
     face_towards(&f, 1, fe__neg(found->normal));
     int32_t is_point = f.face[0].count == 1 || f.face[1].count == 1,

@@ -172,20 +172,6 @@ void fe__leave_carried(fe__gathering *g)
 }
 
 // ---- patches -------------------------------------------------------------------------------------------------------
-// The places of the last choice's points among the first `count`
-static void find_last(const fe__raw_patch *p, int32_t count, fe__choice *last, uint32_t place[FE_MAX_POINTS])
-{
-    int32_t found = 0;
-    for (int32_t k = 0; k < last->count; ++k)
-        for (int32_t i = 0; i < count; ++i) {
-            if (p->points[i].id != last->ids[k]) continue;
-            place[found++] = (uint32_t)i;
-            break;
-        }
-    if (found < last->count) last->count = 0;
-    last->ids = place;
-}
-
 const fe__load *fe__gathering_load(fe__gathering *g)
 {
     if (!g->has_load) {
@@ -196,7 +182,7 @@ const fe__load *fe__gathering_load(fe__gathering *g)
     return &g->load;
 }
 
-// Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
+// Leaves at most four of the first `count` points, whose ids differ.
 static int32_t leave_four(fe__gathering *g, fe__raw_patch *p, int32_t count, int32_t is_aimed)
 {
     fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f),
@@ -207,16 +193,16 @@ static int32_t leave_four(fe__gathering *g, fe__raw_patch *p, int32_t count, int
     fe__manifold_point kept[FE_MAX_POINTS];
     for (int32_t i = 0; i < count; ++i)
         vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point),
-                                      p->points[i].separation, (uint32_t)i};
+                                      p->points[i].separation, p->points[i].id};
     fe_vec3 on_plane = fe__scale(fe__dot(n, p->points[0].point), n); // u and v count from the frame's origin
     fe__foot foot = fe__foot_in_plane(fe__gathering_load(g), on_plane, u, v, n);
     foot.is_aimed = is_aimed, foot.from_origin = 1; // the body's centre
-    uint32_t last[FE_MAX_POINTS];
-    find_last(p, count, &foot.last, last);
-    count = fe__reduce_to_four(vertex, count, g->tie, &foot, &p->left_out);
-    for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
-    for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
-    return count;
+    int32_t left = fe__reduce_to_four(vertex, count, g->tie, &foot, &p->left_out);
+    for (int32_t k = 0; k < left; ++k)
+        for (int32_t i = 0; i < count; ++i)
+            if (p->points[i].id == vertex[k].id) kept[k] = p->points[i];
+    for (int32_t k = 0; k < left; ++k) p->points[k] = kept[k];
+    return left;
 }
 
 static void swap(fe__raw_patch *p, int32_t i, int32_t j)
@@ -246,11 +232,10 @@ static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 // four of all would leave out what carries.
 void fe__reduce_patch(fe__gathering *g, fe__raw_patch *p, int32_t is_aimed)
 {
-    const float touching = 0.001f; // m, a few overlaps of a body at rest
     if (p->count <= FE_MAX_POINTS) return;
     int32_t near = 0;
     for (int32_t i = 0; i < p->count; ++i)
-        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touching) swap(p, i, near++);
+        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + FE__CLEAR) swap(p, i, near++);
     if (near >= FE_MAX_POINTS) {
         p->count = leave_four(g, p, near, is_aimed);
         return;
