@@ -153,9 +153,9 @@ test('a batch that is gone, and what it leaves', () => {
         }
         return runtime.f32.buffer.byteLength;
     };
-    // with threads a round may find a fuller moment than those before it, once
-    const sizes = Array.from({ length: 5 }, grown);
-    assert.ok(sizes.filter((size, k) => k && size === sizes[k - 1]).length >= 3, `bytes after each round: ${sizes}`);
+    // With threads one round may find a fuller moment than those before it: which thread takes which memory is chance.
+    const sizes = Array.from({ length: 5 }, grown), fuller = sizes.filter((size, k) => k && size !== sizes[k - 1]).length;
+    assert.ok(fuller <= (process.env.FEATHER_THREADS > 1 ? 1 : 0), `bytes after each round: ${sizes}`);
 });
 
 test('a great many worlds, while the memory grows', () => {
