@@ -303,26 +303,10 @@ static uint64_t poses_of(const soak *s)
     return fe__hash_end(&hash);
 }
 
-static void begin_history(soak *s)
-{
-    fe_history_def history;
-    fe_history_def_init(&history, sizeof history);
-    history.frames = FRAMES;
-    OK(fe_history_create(s->world, &history, &s->history));
-}
-
-// What is held, but for a history: its frames keep the room that the fullest of their moments took
-static int64_t bytes_held(soak *s)
-{
-    OK(fe_history_destroy(s->history));
-    int64_t bytes = s->memory.bytes;
-    begin_history(s);
-    return bytes;
-}
-
 static void begin(soak *s)
 {
     fe_recorder_def recorder;
+    fe_history_def history;
     *s = (soak){0};
     s->world = counting_world(&s->memory);
     OK(fe_world_set_substeps(s->world, 2));
@@ -331,7 +315,9 @@ static void begin(soak *s)
     fe_recorder_def_init(&recorder, sizeof recorder);
     recorder.keyframe_steps = 10 * RATE;
     OK(fe_recorder_create(s->world, &recorder, &s->recorder));
-    begin_history(s);
+    fe_history_def_init(&history, sizeof history);
+    history.frames = FRAMES;
+    OK(fe_history_create(s->world, &history, &s->history));
 }
 
 static void end(soak *s)
@@ -354,21 +340,20 @@ static void a_world_of_a_day_is_as_small_as_one_of_a_minute(void **state)
     begin(&s);
     live_a_minute(&s, seed_asked, BODIES, step_uncounted);
     live_a_minute(&s, seed_asked, BODIES, step_of_a_young_world);
-    int64_t bytes = bytes_held(&s), before = bytes, most = s.memory.most_bytes;
+    int64_t bytes = s.memory.bytes, before = bytes, most = s.memory.most_bytes;
     uint64_t hash = poses_of(&s);
     for (int32_t i = 2; i < minutes; ++i) {
         int32_t last = i == minutes - 1, same = i % 2 == 0 || last;
         live_a_minute(&s, same ? seed_asked : seed_asked + (uint32_t)i * 7919u, same ? BODIES : BODIES / 2,
                       last ? step_of_an_old_world : step_uncounted);
         if (!same) continue;
-        int64_t now = bytes_held(&s);
-        FE_WITHIN((double)now / (double)before, 0.99, 1.01);
-        FE_TRUE((double)now <= 1.01 * (double)bytes);
-        before = now;
+        FE_WITHIN((double)s.memory.bytes / (double)before, 0.99, 1.01);
+        FE_TRUE((double)s.memory.bytes <= 1.01 * (double)bytes);
+        before = s.memory.bytes;
         FE_TRUE(poses_of(&s) == hash); // it was the same minute
     }
     print_message("%d minutes: %lld bytes after the second, %lld after the last; %lld and %lld at most\n", (int)minutes,
-                  (long long)bytes, (long long)before, (long long)most, (long long)s.memory.most_bytes);
+                  (long long)bytes, (long long)s.memory.bytes, (long long)most, (long long)s.memory.most_bytes);
     // with what copies take for a moment; a fuller one lets an array grow by an eighth
     FE_WITHIN((double)s.memory.most_bytes / (double)most, 1.0, 1.125);
     end(&s);
