@@ -41,8 +41,8 @@ static inline fe__foot fe__foot_in_plane(const fe__load *load, fe_vec3 origin, f
     return (fe__foot){.is_known = 1, .u = fe__dot(u, away), .v = fe__dot(v, away), .last = load->last};
 }
 
-// An id names a vertex within two faces by some of its bits, and the faces by the others. This leaves the vertices' names
-// of a choice that was made of these faces, and no choice of others.
+// An id names a vertex within two faces by some of its bits, and the faces by the others. This leaves the vertices'
+// names of a choice that was made of these faces, and no choice of others.
 static inline void fe__names_of_vertices(fe__choice *last, uint32_t of_faces, uint32_t faces, uint32_t names[4])
 {
     for (int32_t i = 0; i < last->count; ++i) {
