@@ -66,9 +66,8 @@ static fe_asset new_hull(soak *s)
     return hull;
 }
 
-static void renew_hull(soak *s)
+static void renew_hull(soak *s, int32_t i)
 {
-    int32_t i = below(s, HULLS);
     if (s->hulls[i]) OK(fe_asset_destroy(world_store(s->world), s->hulls[i]));
     s->hulls[i] = new_hull(s);
 }
@@ -252,7 +251,7 @@ static void change_something(soak *s, int32_t step)
         edit_field(s);
         drain(s);
     }
-    if (step % 60 == 15) renew_hull(s);
+    if (step % 60 == 15) renew_hull(s, below(s, HULLS));
     if (step % 50 == 0) OK(fe_world_optimize(s->world));
     if (step % 300 == 150) go_through_bytes(s);
     if (step % 600 == 450) copy_world(s);
@@ -284,7 +283,7 @@ static void live_a_minute(soak *s, uint32_t draw, int32_t bodies, step_function 
     s->draw = draw, s->most = bodies;
     empty(s);
     OK(fe_heightfield_set_heights(world_store(s->world), s->field, 0, 0, SIDE, SIDE, flat));
-    for (int32_t i = 0; i < HULLS; ++i) renew_hull(s);
+    for (int32_t i = 0; i < HULLS; ++i) renew_hull(s, i);
     for (int32_t i = 0; i < s->most; ++i) replace_body(s, i);
     for (int32_t i = 0; i < MINUTE; ++i, ++s->step) {
         change_something(s, i);

@@ -74,8 +74,8 @@ typedef struct fe__choice {
     int32_t count, left_out; // count 0: none, or it is not known
 } fe__choice;
 
-// The foot is where the load on a polygon presses, in its plane. Which way is out counts from amid the vertices, or from
-// the origin where these come by and by: the choice of some of them must not depend on the others.
+// The foot is where the load on a polygon presses, in its plane. Which way is out counts from amid the vertices, or
+// from the origin where these come by and by: the choice of some of them must not depend on the others.
 typedef struct fe__foot {
     int32_t is_known;
     float u, v;
