@@ -5,6 +5,7 @@
 #include "collision/manifold/bridge.h"
 
 #include <float.h>
+#include <math.h>
 
 // ---- gaps ----------------------------------------------------------------------------------------------------------
 static int32_t ends_at_a_side(const fe__ground *s, int32_t index)
@@ -212,17 +213,20 @@ static void swap(fe__raw_patch *p, int32_t i, int32_t j)
     p->points[j] = here;
 }
 
-// The point beyond the first `chosen` that is farthest from all of them comes next.
+// The point beyond the first `chosen` that is farthest from all of them comes next: of what rocks over a ridge, where it
+// comes down first, were it tilted by `tilt`.
 static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 {
+    const float tilt = 0.05f;
     int32_t best = chosen;
-    float most = -1.0f;
+    float most = -FLT_MAX;
     for (int32_t i = chosen; i < p->count; ++i) {
         float least = FLT_MAX;
         for (int32_t k = 0; k < chosen; ++k) {
             fe_vec3 away = fe__sub(p->points[i].point, p->points[k].point);
             least = fe__minf(least, fe__dot(away, away));
         }
+        least = sqrtf(least) - p->points[i].separation / tilt;
         if (least > most) most = least, best = i;
     }
     swap(p, chosen, best);
