@@ -75,7 +75,7 @@ static costs measure(int32_t bodies, int32_t sleeps, int32_t count)
 static double keyframe_bytes(const costs *c)
 {
     double all = 0.0;
-    for (int64_t at = 40; at + 32 <= c->bytes;) { // header, chunks: src/record/format.h
+    for (int64_t at = 40; at + 32 <= c->bytes;) { // header, chunks: src/recording/recorder.h
         uint64_t size = 0;
         for (int k = 7; k >= 0; --k) size = size << 8 | c->file[at + 8 + k];
         if (c->file[at] == 'K') all += 32.0 + (double)size;

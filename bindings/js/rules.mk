@@ -23,7 +23,7 @@ WASM_LINK := -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--stack-firs
 # Else each export is wrapped in a call of the destructors. There are neither.
 WASM_LINK += -Wl,--export=__wasm_call_ctors
 # Debian's wasi-libc knows no atomics: the linker is told that it may do without. What of it the library calls keeps
-# nothing between calls, but malloc, which core/aligned.c locks; the host calls it while no worker runs. Bytes of memory:
+# nothing between calls, but malloc, which core/memory.c locks; the host calls it while no worker runs. Bytes of memory:
 # as threads.js has them.
 WASM_SHARED := -matomics -mbulk-memory -ftls-model=local-exec
 WASM_SHARED_LINK := -Wl,--import-memory,--shared-memory,--initial-memory=4194304,--max-memory=1073741824,--no-check-features \

@@ -13,11 +13,31 @@
 //         ...
 #ifndef FE_API_CHECK_H
 #define FE_API_CHECK_H
-#include "api/error.h"
 #include "api/fields.h"
+#include "core/bytes.h"
 #include "core/material.h"
-#include "core/ranges.h"
+#include "feather.h"
+#include "recording/recorder.h"
+#include "recording/ops.h"
 #include "world/world.h"
+
+// ---- error ----------------------------------------------------------------------------------------------------------
+// The sentence of the last failure of each thread.
+//
+// Written by the API layer alone, read by fe_last_error. A fixed buffer: telling of an error never needs memory.
+
+#ifdef __GNUC__
+#define FE_PRINTF_LIKE(text, first) __attribute__((format(printf, text, first)))
+#else
+#define FE_PRINTF_LIKE(text, first)
+#endif
+
+// Keeps "function: sentence" for fe_last_error and returns `result`.
+fe_result fe__fail(const char *function, fe_result result, const char *format, ...) FE_PRINTF_LIKE(3, 4);
+// The same for what a lower layer gave as a reason: FE_ERROR_MEMORY, FE_ERROR_LIMIT. FE_OK passes.
+fe_result fe__report(const char *function, fe_result result);
+
+// ---- check ----------------------------------------------------------------------------------------------------------
 
 enum { FE_MAX_SUBSTEPS = 64 };
 
@@ -188,5 +208,16 @@ static inline const void *fe__at_const(const void *array, uint32_t stride, int32
 {
     return (const unsigned char *)array + (size_t)stride * (size_t)i;
 }
+
+// ---- record ---------------------------------------------------------------------------------------------------------
+// The end of a call that changed its world: it is noted, where somebody records.
+//
+// Calls that fail never come here. Whether anybody records costs a test of one field.
+
+// FE_RECORD(body_set_awake, body, awake): the name without fe_, the arguments without the world
+#define FE_RECORD(call, ...)                                                                               \
+    do {                                                                                                   \
+        if (__builtin_expect(world->recorder != NULL, 0)) fe__record_##call(world->recorder, __VA_ARGS__); \
+    } while (0)
 
 #endif

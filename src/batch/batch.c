@@ -1,8 +1,8 @@
 // batch.c - see batch.h: birth, death, who is inside, what is bound. What happens in a step is in batch_step.c.
 #include "batch/batch.h"
 
-#include "state/history.h"
-#include "world/lifetime.h"
+#include "snapshot/history.h"
+#include "world/world_memory.h"
 
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include "batch/field.h"
 #include "batch/lockstep.h"
 #include "core/registry.h"
-#include "state/state.h"
+#include "snapshot/state.h"
 
 // A caller's array: (world, item, component), packed
 typedef struct fe__batch_array {

@@ -4,7 +4,7 @@
 #include "batch/batch.h"
 
 #include "core/fp_state.h"
-#include "step/step.h"
+#include "step/stages.h"
 #include "world/hash.h"
 
 #include <stdatomic.h>

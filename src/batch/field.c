@@ -1,17 +1,16 @@
 // field.c - see field.h. The table of fields is at the end.
 #include "batch/field.h"
 
-#include "core/ranges.h"
-#include "world/bodies.h"
-#include "world/joint_drive.h"
-#include "world/joint_state.h"
-#include "world/joints.h"
+#include "core/bytes.h"
+#include "world/body_creation.h"
+#include "world/joint.h"
+#include "world/joint_parts.h"
+#include "world/joint_creation.h"
 #include "world/mass.h"
-#include "world/motion.h"
-#include "world/pair_list.h"
-#include "world/points.h"
-#include "world/pose.h"
-#include "world/shapes.h"
+#include "world/body_motion.h"
+#include "world/contact.h"
+#include "world/body.h"
+#include "world/shape.h"
 #include "world/sleep.h"
 
 #include <float.h>

@@ -8,9 +8,8 @@
 #ifndef FE_BATCH_LOCKSTEP_H
 #define FE_BATCH_LOCKSTEP_H
 #include "solver/graph/graph_merge.h"
-#include "step/solve_stage.h"
-#include "step/step.h"
-#include "world/workroom.h"
+#include "step/stages.h"
+#include "world/world_memory.h"
 
 enum { FE__ALONE = -1, FE__OVER = -2 };
 

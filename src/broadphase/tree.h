@@ -13,6 +13,8 @@
 #include "core/memory.h"
 #include "core/simd_sets.h"
 
+// ---- tree -----------------------------------------------------------------------------------------------------------
+
 enum { FE_TREE_WIDTH = 8 };
 #define FE_TREE_EMPTY INT32_MIN
 
@@ -121,5 +123,14 @@ static inline double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, doub
 {
     return fe__kernels_of_tree(tree)->nearest(tree, point, limit, visit, context);
 }
+
+// ---- tree check -----------------------------------------------------------------------------------------------------
+// Trees that come from bytes.
+
+// Does it hang together? Each node that is not dead is met once, links lead both ways, boxes hold what is below them,
+// as many proxies and nodes as are counted, no deeper than told. `takes` says whether a proxy may be there: it is below
+// the capacity of `slot`, whose entries are -1 and are set here. *out_node: where it does not.
+int32_t fe__tree_check(fe__tree *tree, int32_t (*takes)(void *context, int32_t proxy), void *context,
+                       int32_t *out_node);
 
 #endif

@@ -5,7 +5,9 @@
 #ifndef FE_CONTINUOUS_MOTION_PATH_H
 #define FE_CONTINUOUS_MOTION_PATH_H
 #include "collision/cast/toi.h"
-#include "world/step_scratch.h"
+#include "world/world_memory.h"
+
+// ---- motion path ----------------------------------------------------------------------------------------------------
 
 // A body's motion since the step began: the shift of its centre, and its rotation, w >= 0.
 typedef struct fe__shift {
@@ -23,5 +25,18 @@ fe__motion fe__path_motion(const fe__step *step, int32_t body, double from, doub
 fe__motion fe__motion_of_shifts(const fe__body *body, const fe__shift *from, const fe__shift *to, fe_dvec3 base);
 fe__mobile fe__mobile_of_shape(const fe__step *step, const fe__shape *shape, const fe__motion *motion);
 float fe__path_length(const fe__step *step, int32_t body); // no point of it went farther, m
+
+// ---- energy ---------------------------------------------------------------------------------------------------------
+// What stands does no work.
+//
+// A contact that threw a body into a fast spin holds it for the rest of the step by the arms of its beginning, and may
+// give it energy that nothing has. A body that was pushed by static ones only ends with no more than it had and gravity
+// gave. Called by the continuous stage for the fast bodies, between solver and finalize, on any thread; writes the
+// body's line of velocities.
+
+void fe__limit_energy(const fe__step *step, int32_t body);
+
+// v' so that v'^2 / 2 - g . x stays where a body is put `change` (m) away from where gravity took it
+void fe__give_back(const fe_world *world, const fe__body *body, fe_vec3 change, float *velocity);
 
 #endif

@@ -1,7 +1,7 @@
 // math.h - vectors, quaternions and matrices of the scalar code.
 //
 // The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so
-// that each compiler gives the same bits (contraction.h). Trigonometry is in trig.h; libm beyond sqrt is not used.
+// that each compiler gives the same bits (contraction.h). Trigonometry is in math.h; libm beyond sqrt is not used.
 #ifndef FE_CORE_MATH_H
 #define FE_CORE_MATH_H
 #include "core/contraction.h"
@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+// ---- math -----------------------------------------------------------------------------------------------------------
 
 #define FE_PI 3.14159265358979323846f
 
@@ -136,5 +138,40 @@ static inline fe_vec3 fe__mul_sym(const fe__sym3 *m, fe_vec3 a)
     return (fe_vec3){m->xx * a.x + m->xy * a.y + m->xz * a.z, m->xy * a.x + m->yy * a.y + m->yz * a.z,
                      m->xz * a.x + m->yz * a.y + m->zz * a.z};
 }
+
+// ---- trig -----------------------------------------------------------------------------------------------------------
+// Sine, cosine and arc tangent, the same bits on every machine: IEEE + - * / in a fixed order, no libm.
+//
+// Errors: at most 1 unit in the last place of the sine and cosine for |x| <= 1e5, 2 units of the arc tangent. The float
+// versions compute in double and round once. A NaN gives a NaN. Zeros have no sign here: -0 is taken, or given, as +0
+// where the standard library would tell them apart.
+
+// Above 2e5 the error grows to a unit in the last place of x; above 2^30 rad the sine is 0, the cosine 1: such an angle
+// means nothing.
+void fe__sincos(double x, double *out_sine, double *out_cosine);
+// The angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0). Finite arguments up to 1e307.
+double fe__atan2(double y, double x);
+
+static inline void fe__sincosf(float x, float *out_sine, float *out_cosine)
+{
+    double sine, cosine;
+    fe__sincos((double)x, &sine, &cosine);
+    *out_sine = (float)sine, *out_cosine = (float)cosine;
+}
+static inline float fe__atan2f(float y, float x) { return (float)fe__atan2((double)y, (double)x); }
+
+// ---- tensor ---------------------------------------------------------------------------------------------------------
+// Inertia in double: a symmetric 3 x 3 matrix, its principal moments and axes. Used for bodies, from their
+// shapes, and for hulls, from their points.
+
+typedef struct fe__tensor {
+    double m[3][3];
+} fe__tensor;
+
+// The principal moments are left on the diagonal of `a`. Returns the rotation whose columns are their axes: the
+// identity for a tensor that is diagonal already.
+fe__tensor fe__tensor_diagonalise(fe__tensor *a);
+// Its quaternion, of length 1 up to the rounding of floats
+fe_quat fe__tensor_rotation(const fe__tensor *r);
 
 #endif

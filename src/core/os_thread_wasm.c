@@ -7,7 +7,7 @@
 #include "core/os_thread.h"
 
 #if defined(FE_HOST_THREADS)
-#include "core/aligned.h"
+#include "core/memory.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 // owner.c - the slots of the threads that read. See owner.h.
 #include "core/owner.h"
 
-#include "core/aligned.h"
+#include "core/memory.h"
 #include "core/os_thread.h"
 
 // Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread

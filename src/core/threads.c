@@ -13,7 +13,6 @@
 #include "core/memory.h"
 #include "core/os_thread.h"
 #include "core/registry.h"
-#include "core/shares.h"
 
 enum {
     SLOTS = 32,           // bits of fe_pool.open

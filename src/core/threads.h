@@ -48,7 +48,7 @@ void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t c
 // Of the calling thread among those of its pool, from 1; 0: a caller, or a thread of the host.
 int32_t fe__thread_number(void);
 
-// Blocks of [0, count) in shares of the workers (shares.h): each call gets a disjoint range [first, end). Runs inline
+// Blocks of [0, count) in shares of the workers (memory.h): each call gets a disjoint range [first, end). Runs inline
 // when one block holds it all.
 typedef void (*fe__range_task)(void *argument, int32_t first, int32_t end, int32_t worker);
 void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, fe__range_task task, void *argument);

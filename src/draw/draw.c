@@ -1,10 +1,6 @@
-// draw.c - which parts of a drawing are lines, triangles, points; see draw.h.
-#include "draw/draw.h"
+// draw.c - which parts of a drawing are lines, triangles, points; see drawing.h.
+#include "draw/drawing.h"
 
-#include "draw/bodies.h"
-#include "draw/contacts.h"
-#include "draw/joints.h"
-#include "draw/shapes.h"
 
 void fe__draw_lines(fe__drawing *d, fe__pen *pen)
 {

@@ -6,10 +6,10 @@
 #include "query/cast.h"
 
 #include "collision/cast/mesh_ray.h"
-#include "collision/cast/ray.h"
+#include "collision/cast/cast_kinds.h"
 #include "collision/cast/sweep.h"
 #include "collision/cast/turning.h"
-#include "query/keep.h"
+#include "query/top_k.h"
 
 #include <string.h>
 

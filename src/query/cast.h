@@ -4,9 +4,8 @@
 // every bit.
 #ifndef FE_QUERY_CAST_H
 #define FE_QUERY_CAST_H
+#include "collision/cast/approach.h"
 #include "query/scene.h"
-
-#include "collision/cast/mover.h"
 
 #include <stddef.h>
 
@@ -39,5 +38,29 @@ int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out
                      int32_t capacity);
 // The nearest on the shapes of a body's list from `first` to before `end` (-1: its end), whatever the trees say.
 int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t first, int32_t end, fe_hit *out_hit);
+
+// ---- nearest point --------------------------------------------------------------------------------------------------
+// The point of the world nearest to a point.
+
+// Of all shapes no farther than `most`; of equally near ones that of the body created first. 1: there is one.
+int32_t fe__closest(const fe__scene *scene, fe_dvec3 point, double most, fe_closest *out_closest);
+// On the shapes of a body's list from `first` to before `end` (-1: its end), however far.
+int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end,
+                              fe_closest *out_closest);
+
+// ---- overlap --------------------------------------------------------------------------------------------------------
+// Which bodies a form touches where it is.
+//
+// Exactly those that a sweep from there would start inside of: it asks the same test. A sphere of radius 0 is a point.
+
+// The bodies in the order of creation, the first `capacity` of them. Returns how many there are.
+int32_t fe__overlap(const fe__scene *scene, const fe__probe *probe, fe_body *out_bodies, int32_t capacity);
+int32_t fe__overlap_any(const fe__scene *scene, const fe__probe *probe);
+
+// The shapes, in the order of creation, with the shortest way out.
+int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride,
+                           int32_t capacity);
+// The shapes whose bounds meet a box.
+int32_t fe__overlap_bounds(const fe__scene *scene, const fe__bounds *bounds, fe_shape *out_shapes, int32_t capacity);
 
 #endif

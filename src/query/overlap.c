@@ -1,9 +1,9 @@
-// overlap.c - see overlap.h.
+// overlap.c - see cast.h.
 //
 // While the tree is walked, the caller's array holds indices of shapes; at the end they become their bodies' handles.
-#include "query/overlap.h"
+#include "query/cast.h"
 
-#include "query/keep.h"
+#include "query/top_k.h"
 
 #include <stddef.h>
 #include <string.h>

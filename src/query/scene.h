@@ -6,7 +6,7 @@
 #define FE_QUERY_SCENE_H
 #include "broadphase/tree.h"
 #include "collision/form/heightfield.h"
-#include "collision/form/shape.h"
+#include "collision/form/form.h"
 #include "core/id_pool.h"
 #include "store/store.h"
 

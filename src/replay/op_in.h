@@ -5,8 +5,8 @@
 #ifndef FE_REPLAY_OP_IN_H
 #define FE_REPLAY_OP_IN_H
 #include "core/memory.h"
-#include "record/format.h"
-#include "record/op_write.h"
+#include "recording/recorder.h"
+#include "recording/op_write.h"
 
 // Arrays of a call, by place; then the handles that it returned when it was recorded, and those that it returns now
 enum { FE__IN_THEN = 2, FE__IN_NOW = 3, FE__IN_ROOMS = 4 };

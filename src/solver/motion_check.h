@@ -1,7 +1,7 @@
 // motion_check.h - did a body overflow in this step?
 #ifndef FE_SOLVER_MOTION_CHECK_H
 #define FE_SOLVER_MOTION_CHECK_H
-#include "core/ranges.h"
+#include "core/bytes.h"
 #include "core/simd.h"
 #include "solver/solver.h"
 

@@ -6,10 +6,9 @@
 // executes a batch never shows.
 #include "solver/solve.h"
 
-#include "core/shares.h"
+#include "core/memory.h"
 #include "solver/pace.h"
-#include "solver/pass_on.h"
-#include "solver/tree/tree.h"
+#include "solver/tree/tree_solver.h"
 
 #include <assert.h>
 #include <string.h>

@@ -10,14 +10,14 @@
 #ifndef FE_SOLVER_SOLVER_H
 #define FE_SOLVER_SOLVER_H
 #include "collision/manifold/terrain_course.h"
-#include "core/array_sort.h"
+#include "core/sort.h"
 #include "core/math.h"
 #include "core/memory.h"
 #include "core/threads.h"
-#include "solver/contact/contact.h"
-#include "solver/contact/deferral.h"
-#include "solver/body.h"
-#include "solver/joint/joint.h"
+#include "solver/contact/contact_solver.h"
+#include "solver/contact/skip_test.h"
+#include "solver/solver_body.h"
+#include "solver/joint/joint_solver.h"
 #include "solver/tree/lock.h"
 
 enum {
@@ -232,7 +232,7 @@ typedef struct fe__touch_link {
     int32_t next, previous;
 } fe__touch_link;
 
-// A contact with restitution of a chain of impacts, see pass_on.c
+// A contact with restitution of a chain of impacts, see impact_chain.c
 typedef struct fe__touch {
     float when;      // s into the substep
     float change[2]; // of the velocities of A and B in it, m/s
@@ -274,14 +274,14 @@ typedef struct fe__solver {
 
     uint8_t *touches_of; // by line: contacts with restitution that touched in this substep, as far as two
     int32_t *touch_of;   // by line: the first of its touches in a chain
-    fe__touch *touches;  // of a batch: from its first lane, see pass_on.c
+    fe__touch *touches;  // of a batch: from its first lane, see impact_chain.c
     int32_t touch_capacity[3];
     _Atomic int32_t chained; // 1: two of them shared a body, in this step
 
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
-    _Atomic int32_t mixed;    // rows of this step with loose contacts, see graph_build.h, and others
+    _Atomic int32_t mixed;    // rows of this step with loose contacts, see graph.h, and others
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
@@ -320,7 +320,7 @@ static inline fe__body *fe__body_of_line(const fe__solver *s, const fe__records 
 
 static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
-// What is done with touches of a chain of impacts, see pass_on.c
+// What is done with touches of a chain of impacts, see impact_chain.c
 typedef enum fe__touch_act {
     FE__TOUCH_TAKE,    // what it gave in this substep leaves the velocities
     FE__TOUCH_RETURN,  // and returns
@@ -371,7 +371,7 @@ typedef struct fe__forest_kernels {
     int32_t lanes;                  // trees side by side
     int32_t head_bytes, link_bytes; // of row memory for so many links of such trees
     void (*prepare)(const struct fe__tree_job *job);
-    void (*restore)(const struct fe__tree_job *job); // after the contacts' own, see tree/lend.inl
+    void (*restore)(const struct fe__tree_job *job); // after the contacts' own, see tree/articulated_mass.inl
     void (*solve)(const struct fe__tree_job *job);
     void (*follow)(const struct fe__tree_job *job);
     void (*relax)(const struct fe__tree_job *job);
@@ -403,7 +403,7 @@ typedef void fe__recycle_kernel(const fe__contact *contacts, fe__points *points,
                                 const int32_t *index, int32_t count, float dt, float fall, uint8_t *out,
                                 float *out_slack);
 
-// Of the deferred pairs at `places`, those that may meet in a step of dt seconds, by the bound of deferral.h: they are
+// Of the deferred pairs at `places`, those that may meet in a step of dt seconds, by the bound of skip_test.h: they are
 // brought to the front in their order. Returns how many.
 typedef int32_t fe__due_kernel(const fe__deferral *deferrals, const fe__odometer *odometers, int32_t *places,
                                int32_t count, float dt);

@@ -7,7 +7,7 @@
 // linear in n. Who is buried, and what is found, does not hang on the trees' form, on slots or workers.
 #ifndef FE_STEP_BURIED_H
 #define FE_STEP_BURIED_H
-#include "world/step_scratch.h"
+#include "world/world_memory.h"
 
 enum { FE__BURIED_BY = 256, FE__BESIDE = 24 };
 

@@ -3,16 +3,27 @@
 //
 // A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended
 // otherwise (destroyed, re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
-#include "step/events.h"
+#include "step/stages.h"
 
-#include "step/collide_stage.h"
-#include "step/encounters.h"
+#include "core/sort.h"
 #include "step/load.h"
+#include "world/contact.h"
+#include "world/contact_creation.h"
 #include "world/encounter.h"
-#include "world/handles.h"
-#include "world/pair_list.h"
-#include "world/material.h"
-#include "world/pairs.h"
+#include "world/joint.h"
+#include "world/joint_creation.h"
+#include "world/world.h"
+#include "world/world_memory.h"
+
+#include <float.h>
+
+// ---- encounters -----------------------------------------------------------------------------------------------------
+// The events of compounds: what their parts' pairs found, told of the whole shapes.
+
+// Of pairs of parts that have something to report, in any order; and of encounters that lost pairs since the last step
+void fe__report_encounters(fe__step *step, int32_t *pairs, int32_t count);
+
+// ---- events ---------------------------------------------------------------------------------------------------------
 
 static int32_t touches(const fe_world *w, int32_t head)
 {
@@ -232,4 +243,133 @@ void fe__collect_body_events(fe__step *step)
         w->body_events[i] = (fe__body_event_record){items[i].key,
                                                     {fe__body_handle(w, items[i].value),
                                                      items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
+}
+
+// ---- encounters -----------------------------------------------------------------------------------------------------
+// See stages.h.
+//
+// The pairs come in the order of creation, so that sums of impulses and the choice among equally deep points are the
+// same whatever the workers did.
+
+// m, FLT_MAX without points
+static float least_separation(const fe_world *w, int32_t head)
+{
+    float least = FLT_MAX;
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
+        const fe__contact *m = w->contacts + pair;
+        const fe__points *q = fe__points_of(w, m);
+        for (int32_t i = 0; i < (int32_t)m->point_count; ++i) least = fe__minf(least, q->separation[i]);
+    }
+    return least;
+}
+
+static void add_impact(const fe_world *w, fe__encounter *e, int32_t pair)
+{
+    fe__hit_impact sum = fe__impact_of(w, pair);
+    e->impulse += sum.impulse;
+    e->approach = fe__maxf(e->approach, sum.approach);
+    if (sum.largest > e->largest) e->largest = sum.largest, e->hit_pair = sum.pair, e->hit_point = sum.point;
+}
+
+// A pair that touches
+static void add(fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fe__encounter *e = fe__encounter_of(w, pair);
+    float depth = least_separation(w, pair);
+    if (!e->deepest || depth < e->depth) e->deepest = pair, e->depth = depth;
+    if (!(p->flags & FE__PAIR_SENSOR) && p->events & FE_SHAPE_EVENTS_HIT) add_impact(w, e, pair);
+    fe__encounter_note(w, e);
+}
+
+static fe__pair_event_record exit_of(const fe_world *w, const fe__encounter *e)
+{
+    const fe__shape *a = w->shapes + e->shape_a, *b = w->shapes + e->shape_b;
+    return (fe__pair_event_record){.serial_a = a->serial,
+                                   .serial_b = b->serial,
+                                   .body_a = fe__body_handle(w, a->body),
+                                   .body_b = fe__body_handle(w, b->body),
+                                   .shape_a = fe__shape_handle(w, e->shape_a),
+                                   .shape_b = fe__shape_handle(w, e->shape_b),
+                                   .kind = FE_EVENT_EXIT,
+                                   .is_trigger = ((a->flags | b->flags) & FE__SHAPE_TRIGGER) != 0,
+                                   .triangle = -1};
+}
+
+static void report_touch(fe_world *w, fe__encounter *e)
+{
+    uint32_t events = w->shapes[e->shape_a].events | w->shapes[e->shape_b].events;
+    int32_t now = e->touching > 0, before = e->entered;
+    e->entered = (uint16_t)now;
+    if (before && !now && events & FE_SHAPE_EVENTS_TOUCH) w->pair_events[w->pair_event_count++] = exit_of(w, e);
+    if (!now || !e->deepest) return;
+    int32_t kind = before ? FE_EVENT_STAY : FE_EVENT_ENTER;
+    if (events & (before ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
+        w->pair_events[w->pair_event_count++] = fe__pair_event_of(w, e->deepest, kind);
+}
+
+static void report_encounter(fe_world *w, fe__encounter *e)
+{
+    report_touch(w, e);
+    if (e->hit_pair) {
+        const fe__pair *p = w->pairs + e->hit_pair;
+        fe__hit_impact sum = {e->impulse, e->largest, e->approach, e->hit_pair, e->hit_point};
+        fe__add_hit(w, p->flags & FE__PAIR_PATCH ? p->head : e->hit_pair, &sum);
+    }
+    e->deepest = e->hit_pair = 0;
+    e->impulse = e->largest = e->approach = 0.0f;
+    fe__encounter_reported(w, e);
+}
+
+void fe__report_encounters(fe__step *step, int32_t *pairs, int32_t count)
+{
+    fe_world *w = step->world;
+    fe__sort_pairs(step, pairs, count);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t kind = fe__settle_pair(step, pairs[i]);
+        if (kind && kind != FE_EVENT_EXIT) add(w, pairs[i]);
+    }
+    while (w->first_changed) report_encounter(w, fe__record(&w->encounters, w->first_changed));
+}
+
+// ---- break joints ---------------------------------------------------------------------------------------------------
+// Joints that bore too much in the step, by its reactions, go: their events first, in the order of
+// creation.
+
+static int32_t exceeds(fe_vec3 a, float most) { return most > 0.0f && fe__dot(a, a) > most * most; }
+
+// Reads the step's reactions; writes events in the order of creation, then removes the joints in that order
+void fe__break_joints(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__sort_item *items = fe__sort_room(step);
+    int32_t count = 0;
+    w->joint_event_count = 0;
+    if (!w->breakable_count || step->dt == 0.0f) return;
+    for (int32_t i = 0; i < w->awake_joint_count; ++i) {
+        int32_t joint = w->awake_joints[i];
+        const fe__joint_record *r = w->joint_records + joint;
+        if (w->joints.joints[joint].colour < 0 || (r->break_force == 0.0f && r->break_torque == 0.0f)) continue;
+        fe_vec3 force, torque;
+        fe__joint_reaction_of(&w->joints, w->bodies, joint, &force, &torque);
+        if (exceeds(force, r->break_force) || exceeds(torque, r->break_torque))
+            items[count++] = (fe__sort_item){w->joints.frames[joint].serial, joint, 0};
+    }
+    fe__sort_keys(items, count, items + count);
+    w->joint_event_count = count;
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t joint = items[i].value;
+        const fe__joint_record *r = w->joint_records + joint;
+        fe_joint_event e = {fe__joint_handle(w, joint),
+                            fe__joint_end_handle(w, joint, 0),
+                            fe__joint_end_handle(w, joint, 1),
+                            r->user_data,
+                            FE_EVENT_BREAK,
+                            r->type,
+                            {0, 0, 0},
+                            {0, 0, 0}};
+        fe__joint_reaction_of(&w->joints, w->bodies, joint, &e.force, &e.torque);
+        w->joint_events[i] = (fe__joint_event_record){items[i].key, e};
+    }
+    for (int32_t i = 0; i < count; ++i) fe__joint_remove(w, items[i].value);
 }

@@ -2,20 +2,19 @@
 //
 // Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
 #define FE_W 4
-#include "step/finalize.h"
+#include "step/stages.h"
 
-#include "collision/form/hull_form.h"
+#include "collision/form/hull.h"
 #include "core/simd.h"
 #include "solver/graph/graph.h"
 #include "solver/motion_check.h"
-#include "world/joint_list.h"
-#include "world/joints.h"
-#include "world/pair_link.h"
-#include "world/pair_list.h"
-#include "world/pose.h"
+#include "world/joint.h"
+#include "world/joint_creation.h"
+#include "world/contact_creation.h"
+#include "world/contact.h"
+#include "world/body.h"
 #include "world/proxies.h"
 #include "world/sleep.h"
-#include "world/speed.h"
 
 #include <float.h>
 #include <string.h>

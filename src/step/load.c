@@ -1,7 +1,7 @@
 // load.c - see load.h.
 #include "step/load.h"
 
-#include "world/points.h"
+#include "world/contact.h"
 
 typedef struct line {
     fe_dvec3 at; // world

@@ -4,7 +4,7 @@
 // Called by the narrow phase before it looks for points, and by the events stage after the solver.
 #ifndef FE_STEP_LOAD_H
 #define FE_STEP_LOAD_H
-#include "step/view.h"
+#include "step/stages.h"
 
 // The line of the forces on the body above, as far as they are known: gravity, and those that were called for. In the
 // frame of v's A. What others do to the body shows in the pressure of the last step alone; but a body that rocks has

@@ -2,17 +2,30 @@
 //
 // The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the
 // step fails with the world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
-#include "step/reserve.h"
+#include "step/stages.h"
 
-#include "solver/graph/colour.h"
 #include "solver/graph/graph.h"
-#include "step/island_bound.h"
-#include "world/forest.h"
-#include "world/pair_mix.h"
-#include "world/pairs.h"
-#include "world/points.h"
+#include "step/narrowphase.h"
+#include "world/contact.h"
+#include "world/contact_creation.h"
+#include "world/joint.h"
+#include "world/joint_creation.h"
+#include "world/proxies.h"
+#include "world/world_memory.h"
 
 #include <string.h>
+
+// ---- island bound ---------------------------------------------------------------------------------------------------
+// How large the largest island of a step may be, at most, and how much of what sleeps may wake in it.
+
+// Before the other two: clusters that are not stale know the candidates
+void fe__count_candidates(fe__step *step);
+// Waking spreads by pairs and joints: contacts and joints' rows of all clusters with a sleeping body that a candidate,
+// or a pair that does not touch yet, has in common with one that is awake. 0: no memory
+int32_t fe__bound_waking(fe__step *step, int32_t *out_lanes, int32_t *out_clusters);
+int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound); // sets bound->largest
+
+// ---- reserve --------------------------------------------------------------------------------------------------------
 
 // ---- contacts to come ----------------------------------------------------------------------------------------------
 // Bodies of the n-th contact that may be linked: candidates first, then pairs that just ceased to wait
@@ -287,4 +300,260 @@ int32_t fe__reserve_step(fe__step *step)
     int32_t had_extras = w->extra_capacity > 0, is_done = reserve_all(step);
     if (!is_done && !had_extras) FE_FREE(&w->memory, w->extras, w->extra_capacity);
     return is_done;
+}
+
+// ---- island bound ---------------------------------------------------------------------------------------------------
+// See stages.h. Input: pairs, joints and candidates of the step; output: the clusters that they
+// join (clusters.h).
+
+// Two bodies, of which at least one is dynamic, get so many lanes in common
+static void join(fe_world *w, int32_t a, int32_t b, int32_t lanes)
+{
+    int32_t dynamic_a = w->bodies[a].type == FE_BODY_DYNAMIC, dynamic_b = w->bodies[b].type == FE_BODY_DYNAMIC;
+    fe__clusters_join(&w->clusters, dynamic_a ? a : b, dynamic_b ? b : a, lanes);
+}
+
+static void join_shapes(fe_world *w, int32_t shape_a, int32_t shape_b)
+{
+    join(w, w->shapes[shape_a].body, w->shapes[shape_b].body, fe__is_field_pair(w, shape_a, shape_b) ? FE__PATCHES : 1);
+}
+
+static void join_candidates(const fe__step *step)
+{
+    const fe__step_scratch *s = step->scratch;
+    for (int32_t i = 0; i < s->candidate_count; ++i)
+        join_shapes(step->world, s->candidates[i].shape_a, s->candidates[i].shape_b);
+}
+
+static void join_joints(fe_world *w)
+{
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) {
+        const fe__joint *j = w->joints.joints + joint;
+        if (j->colour >= 0) join(w, j->body_a, j->body_b, __builtin_popcount(j->rows & ((1u << FE__PARTS) - 1u)));
+    }
+}
+
+static void make_anew(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__clusters *c = &w->clusters;
+    fe__clusters_part(c);
+    for (int32_t i = 1; i < w->pair_limit; ++i) {
+        const fe__pair *p = w->pairs + i;
+        if (p->flags & FE__PAIR_FREE) continue;
+        join(w, p->body_a, p->body_b, 1); // patches are records too
+    }
+    join_joints(w);
+    join_candidates(step);
+    c->made = c->all;
+}
+
+// What parts stays together in them. So they are made anew, once somebody asks, when an eighth as many as there are
+// records of pairs has been joined since: a step that joins n pairs walks 8 n records on average.
+static int32_t may_have_parted(const fe_world *w) { return w->clusters.all - w->clusters.made > w->pair_limit / 8; }
+
+void fe__count_candidates(fe__step *step)
+{
+    fe__clusters *c = &step->world->clusters;
+    if (c->body_count < step->world->body_capacity || may_have_parted(step->world)) c->is_stale = 1;
+    if (!c->is_stale) join_candidates(step);
+}
+
+// 0: no memory
+static int32_t renew(fe__step *step)
+{
+    fe_world *w = step->world;
+    if (!w->clusters.is_stale) return 1;
+    if (!fe__clusters_reserve(&w->clusters, &w->memory, w->body_capacity)) return 0;
+    make_anew(step);
+    return 1;
+}
+
+// ---- what may wake -------------------------------------------------------------------------------------------------
+static int32_t is_asleep(const fe__body *body) { return body->awake_index < 0 && body->type == FE_BODY_DYNAMIC; }
+
+// The sleeping body of the n-th pair by which something may wake: candidates first. -1: none
+static int32_t sleeper_of(const fe__step *step, int32_t n)
+{
+    const fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    int32_t a, b;
+    if (n < s->candidate_count) {
+        a = w->shapes[s->candidates[n].shape_a].body, b = w->shapes[s->candidates[n].shape_b].body;
+    } else {
+        const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[n - s->candidate_count]);
+        if (m->colour >= 0) return -1;
+        a = m->body_a, b = m->body_b;
+    }
+    return is_asleep(w->bodies + a) ? a : is_asleep(w->bodies + b) ? b : -1;
+}
+
+static int32_t waking_pairs(const fe__step *step)
+{
+    return step->scratch->candidate_count + step->world->awake_pair_count;
+}
+
+int32_t fe__bound_waking(fe__step *step, int32_t *out_lanes, int32_t *out_clusters)
+{
+    fe_world *w = step->world;
+    fe__clusters *c = &w->clusters;
+    *out_lanes = *out_clusters = 0;
+    if (w->awake_body_count == w->body_count - w->static_count) return 1;
+    int32_t n = 0, end = waking_pairs(step);
+    while (n < end && sleeper_of(step, n) < 0) ++n;
+    if (n == end) return 1;
+    if (!renew(step)) return 0;
+    fe__clusters_ask(c);
+    for (; n < end; ++n) {
+        int32_t body = sleeper_of(step, n);
+        if (body >= 0) *out_clusters += fe__clusters_add(c, body, out_lanes);
+    }
+    return 1;
+}
+
+int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
+{
+    fe_world *w = step->world;
+    if (fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) return 1;
+    if (!renew(step)) return 0;
+    bound->largest = w->clusters.most;
+    return 1;
+}
+
+// ---- due ------------------------------------------------------------------------------------------------------------
+// See stages.h. Where the bound of skip_test.h does not decide, the exact test of recycle.simd.c does, and where
+// that does not, the narrow phase. Most pairs that it looks at are still apart: they wait on, from where they are now,
+// and no row and no points are reserved for them. What was found of them is noted until all memory is there: a step
+// that finds none for the others changes nothing. The narrow phase of those that meet comes in its own stage, where
+// there is room for what it finds.
+
+enum { PAIRS_IN_BLOCK = 256 };
+
+// ---- what was found, until the step is sure -------------------------------------------------------------------------
+// It stands in the members of the deferral that are the contact's, and its place at the end of the busy list, which
+// has room for every awake pair: no pair is there twice. `spare` tells whether the contact changes.
+static void note(const fe__step *step, int32_t place, const fe__apart *found, int32_t is_anew)
+{
+    fe__step_scratch *s = step->scratch;
+    fe__deferral *d = step->world->deferrals + place;
+    d->arm_a = found->slack;
+    d->spare[0] = is_anew;
+    if (is_anew) fe__copy3(d->normal, found->normal), d->arm_b = found->axis_separation;
+    s->busy[s->busy_end - 1 - atomic_fetch_add_explicit(&s->noted_count, 1, memory_order_relaxed)] = place;
+}
+
+static void take_note(fe_world *w, int32_t place)
+{
+    fe__deferral *d = w->deferrals + place;
+    const int32_t pair = fe__pair_of(w->awake_pairs[place]);
+    const fe__apart found = {d->arm_b, d->arm_a, fe__quad_vector(d->normal)};
+    if (d->spare[0]) fe__write_apart(w, pair, &found);
+    fe__defer(d, w->odometers, w->bodies, w->contacts + pair, found.slack);
+}
+
+static void take_notes_of_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    const fe__step_scratch *s = step->scratch;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) take_note(step->world, s->busy[s->busy_end - 1 - i]);
+}
+
+void fe__keep_waiting(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    fe_world *w = step->world;
+    int32_t count = atomic_load(&s->noted_count);
+    if (!step->failed) fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, take_notes_of_block, step);
+    for (int32_t i = 0; i < count && step->failed; ++i) {
+        const int32_t place = s->busy[s->busy_end - 1 - i];
+        fe__deferral_aim(w->deferrals + place, w->contacts + fe__pair_of(w->awake_pairs[place]));
+    }
+}
+
+// ---- the search -----------------------------------------------------------------------------------------------------
+// What left its partner's box is for the collide stage, which ends it
+static int32_t waits_on(const fe__step *step, int32_t pair)
+{
+    const fe_world *w = step->world;
+    fe__apart found;
+    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(step, pair, &found)) return 0;
+    note(step, w->pairs[pair].awake_index, &found, 1);
+    return 1;
+}
+
+// Of so many pairs, those that meet in this step, or end: brings them to the front, and returns how many
+static int32_t keep_meeting(const fe__step *step, int32_t *pairs, int32_t count)
+{
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
+    const fe_world *w = step->world;
+    int32_t left = 0;
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fe__fetch_own(w, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(w, pairs[i + NAMED_AHEAD]);
+        if (i >= 0 && !waits_on(step, pairs[i])) pairs[left++] = pairs[i];
+    }
+    return left;
+}
+
+// Of places in the list of awake pairs, those whose pair may get points in this step: puts the pairs there, and returns
+// how many. The others wait until their bodies may have moved by what is left of the gap
+static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
+{
+    fe_world *w = step->world;
+    int32_t pairs[PAIRS_IN_BLOCK], left = 0;
+    uint8_t verdicts[PAIRS_IN_BLOCK];
+    float slack[PAIRS_IN_BLOCK];
+    for (int32_t i = 0; i < count; ++i) pairs[i] = fe__pair_of(w->awake_pairs[places[i]]);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
+    for (int32_t i = 0; i < count; ++i) {
+        if (verdicts[i] == FE__STAYS_APART)
+            note(step, places[i], &(fe__apart){.slack = slack[i]}, 0);
+        else
+            places[left++] = pairs[i];
+    }
+    return left;
+}
+
+static void find_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    const fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    (void)worker;
+    int32_t due[PAIRS_IN_BLOCK], waiting = 0;
+    for (int32_t start = first; start < end; start += PAIRS_IN_BLOCK) {
+        int32_t stop = fe__mini(end, start + PAIRS_IN_BLOCK), count = 0, left = 0;
+        for (int32_t i = start; i < stop; ++i) {
+            due[count] = i;
+            count += w->awake_pairs[i] < 0;
+        }
+        waiting += count;
+        if (count) left = w->kernels->keep_due(w->deferrals, w->odometers, due, count, step->dt);
+        if (left) left = keep_due(step, due, left);
+        int32_t looked = left;
+        if (left) left = keep_meeting(step, due, left);
+        atomic_fetch_add_explicit(&s->apart_count, looked - left, memory_order_relaxed);
+        if (!left) continue;
+        int32_t at = atomic_fetch_add_explicit(&s->due_count, left, memory_order_relaxed);
+        for (int32_t i = 0; i < left; ++i) s->busy[at + i] = due[i];
+        waiting -= left;
+    }
+    atomic_fetch_add_explicit(&s->waiting_count, waiting, memory_order_relaxed);
+}
+
+int32_t fe__find_due(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->due_count, 0);
+    atomic_store(&s->waiting_count, 0);
+    atomic_store(&s->apart_count, 0);
+    atomic_store(&s->noted_count, 0);
+    // with heightfields none waits, see update_contacts.c
+    if (w->field_pair_count || !atomic_load(&s->some_deferred)) return 1;
+    if (!FE_RESERVE(w->step_memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;
+    s->busy_end = w->awake_pair_count;
+    fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, find_in_block, step);
+    return 1;
 }

@@ -1,14 +1,12 @@
-// sleepers.c - see sleepers.h.
+// sleepers.c - see stages.h.
 //
 // A pair has points from the speculative distance on. One that is awake may close its gap only as it moves along the
 // normal: by its velocity, its spin, gravity and forces, and by what pushes it that way. What is held by joints, or
 // touched by other bodies that may move, is pushed in ways that the solver alone knows: it wakes whom it comes near.
-#include "step/sleepers.h"
+#include "step/stages.h"
 
-#include "step/ahead.h"
-#include "world/pair_list.h"
-#include "world/pairs.h"
-#include "world/points.h"
+#include "world/contact.h"
+#include "world/contact_creation.h"
 
 #include <float.h>
 

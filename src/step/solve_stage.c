@@ -1,10 +1,9 @@
-// solve_stage.c - see solve_stage.h. The constants of each pace of substeps, and the speeds of impacts before the
+// solve_stage.c - see stages.h. The constants of each pace of substeps, and the speeds of impacts before the
 // solver.
-#include "step/solve_stage.h"
+#include "step/stages.h"
 
 #include "solver/solve.h"
-#include "world/pair_list.h"
-#include "world/points.h"
+#include "world/contact.h"
 
 #include <float.h>
 #include <string.h>

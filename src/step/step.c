@@ -1,15 +1,9 @@
 // step.c - the step: its table of contents, its clock, its counters.
-#include "step/step.h"
+#include "step/stages.h"
 
 #include "continuous/continuous.h"
 #include "core/clock.h"
-#include "step/break_joints.h"
 #include "step/buried.h"
-#include "step/collide_stage.h"
-#include "step/events.h"
-#include "step/finalize.h"
-#include "step/pairs_stage.h"
-#include "step/solve_stage.h"
 
 #include <assert.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 //
 // The hash, of all bytes but its own, is against accidents: who wants to deceive computes it anew. A kind, a version or
 // a feature that is not known is of a newer library. A compound holds the assets of its parts one after another, each
-// with its header (compound_bytes.h).
+// with its header (asset_bytes.h).
 #ifndef FE_STORE_ASSET_BYTES_H
 #define FE_STORE_ASSET_BYTES_H
 #include "collision/cooked/cooked.h"

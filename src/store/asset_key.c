@@ -1,8 +1,8 @@
 // asset_key.c - see asset_key.h. Two hashes of the same numbers, which begin with another word each.
 #include "store/asset_key.h"
 
-#include "collision/form/sound.h"
-#include "core/hash.h"
+#include "collision/form/form.h"
+#include "core/bytes.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // store.c - see store.h. A new store holds nothing but itself: its table of chunks grows with what it is given.
 #include "store/store.h"
 
-#include "store/scaled_asset.h"
+#include "store/asset.h"
 
 static fe__registry stores = {FE_MUTEX_INITIAL, NULL};
 

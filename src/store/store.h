@@ -8,9 +8,9 @@
 #define FE_STORE_STORE_H
 #include "collision/form/compound.h"
 #include "collision/form/heightfield.h"
-#include "collision/form/hull_form.h"
+#include "collision/form/hull.h"
 #include "collision/form/mesh.h"
-#include "collision/form/shape.h"
+#include "collision/form/form.h"
 #include "collision/form/ground.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
@@ -54,7 +54,7 @@ typedef struct fe__asset {
     fe_asset handle;   // kept here, so that it can be read without the lock
     int32_t index;     // its own
     int32_t mark;      // of whoever holds the lock, who has set it
-    // Hulls and meshes under a scale are records of their own (scaled_asset.h): of the asset
+    // Hulls and meshes under a scale are records of their own (asset.h): of the asset
     struct fe__asset *scaled; // the first of them
     // and of one of them
     struct fe__asset *parent; // NULL for an asset

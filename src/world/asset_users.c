@@ -4,9 +4,9 @@
 // on another thread: it is written under the store's lock only.
 #include "world/asset_users.h"
 
-#include "world/pair_list.h"
+#include "world/contact.h"
 #include "world/proxies.h"
-#include "world/shapes.h"
+#include "world/shape.h"
 #include "world/sleep.h"
 
 #include <string.h>

@@ -2,8 +2,7 @@
 // worlds.
 #ifndef FE_WORLD_ASSET_USERS_H
 #define FE_WORLD_ASSET_USERS_H
-#include "store/heightfield_asset.h"
-#include "store/mesh_asset.h"
+#include "store/asset.h"
 #include "world/world.h"
 
 // Joins the store of the source, if there is one, or of the definition, or makes one of the world's own.

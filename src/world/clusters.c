@@ -1,7 +1,7 @@
 // clusters.c - see clusters.h.
 #include "world/clusters.h"
 
-#include "core/disjoint.h"
+#include "core/sort.h"
 #include "core/math.h"
 
 int32_t fe__clusters_reserve(fe__clusters *c, fe__memory *memory, int32_t bodies)

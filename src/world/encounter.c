@@ -1,7 +1,7 @@
 // encounter.c - see encounter.h.
 #include "world/encounter.h"
 
-#include "world/pair_list.h"
+#include "world/contact.h"
 
 int32_t fe__reserve_encounters(fe_world *world, int32_t extra)
 {

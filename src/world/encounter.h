@@ -1,9 +1,10 @@
 // encounter.h - two shapes of which one is a compound at least, while boxes of their parts meet.
 //
 // Pairs are of parts; the caller is told of whole shapes. So an encounter counts its pairs and those that touch: it
-// begins with the first and ends with the last of them (step/encounters.c). It knows what the pair filter said, too.
+// begins with the first and ends with the last of them (step/events.c). It knows what the pair filter said, too.
 #ifndef FE_WORLD_ENCOUNTER_H
 #define FE_WORLD_ENCOUNTER_H
+#include "world/contact.h"
 #include "world/world.h"
 
 typedef struct fe__encounter {
@@ -33,7 +34,7 @@ void fe__encounter_gain(fe_world *world, int32_t pair);
 // A pair of parts goes. 1: with it goes the encounter, which owes an exit
 int32_t fe__encounter_lose(fe_world *world, int32_t pair);
 // A pair begins or ceases to be a contact, or to pass a one-way shape. Never while workers look at pairs: they read
-// both counts, see step/narrow.c
+// both counts, see step/narrowphase.c
 void fe__encounter_hold(fe_world *world, int32_t pair, int32_t holds);
 void fe__encounter_pass(fe_world *world, int32_t pair, int32_t passes);
 // A pair begins or ceases to touch

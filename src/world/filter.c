@@ -4,7 +4,7 @@
 // makes no event.
 #include "world/filter.h"
 
-#include "world/joint_list.h"
+#include "world/joint.h"
 
 // Contacts need a dynamic body; a trigger also reports a kinematic one. Nothing changes between two static bodies. Two
 // surfaces never meet.

@@ -1,8 +1,11 @@
 // joint_parts.h - from a joint's definition to the parts that the solver knows.
 #ifndef FE_WORLD_JOINT_PARTS_H
 #define FE_WORLD_JOINT_PARTS_H
-#include "solver/joint/joint.h"
-#include "world/joint_record.h"
+#include "solver/joint/joint_solver.h"
+#include "world/joint.h"
+#include "world/world.h"
+
+// ---- joint parts ----------------------------------------------------------------------------------------------------
 
 typedef struct fe__joint_plan {
     uint32_t parts;             // 1 << fe__joint_part
@@ -22,9 +25,17 @@ static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
 // The part that uses a place in fe__joint_axes.axis, FE__PARTS: none
 fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place);
 
-// Twist and swing of q, see solver/joint/joint.h
+// Twist and swing of q, see solver/joint/joint_solver.h
 void fe__joint_angles(fe_quat q, float *out_twist, float *out_swing_y, float *out_swing_z);
 // From the solver's axes to the definition's: X to axis X + shift
 fe_quat fe__joint_shift(int32_t shift);
+
+// ---- joint state ----------------------------------------------------------------------------------------------------
+// How joints stand: frames, coordinates, speeds, errors.
+//
+// Read from the bodies' poses and velocities as they are, by the API.
+
+fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side); // 0: A's, 1: B's; world space
+void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *out_state);
 
 #endif

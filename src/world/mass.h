@@ -3,6 +3,8 @@
 #define FE_WORLD_MASS_H
 #include "world/world.h"
 
+// ---- mass -----------------------------------------------------------------------------------------------------------
+
 void fe__body_update_mass(fe_world *world, int32_t body);               // from the shapes, unless given; reach always
 void fe__body_gain_shape(fe_world *world, int32_t body, int32_t shape); // after it came
 // After a shape went, or got another form or frame. Those of a static body with many shapes, which only a step reads,
@@ -14,5 +16,16 @@ void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data);
 // What the body would have with this mass, spread as it is, kg
 fe_mass_data fe__body_scaled_mass(const fe_world *world, int32_t body, float mass);
 void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
+
+// ---- mechanics ------------------------------------------------------------------------------------------------------
+// Energy, momentum and bounds of a world, summed over its bodies in the order of creation.
+
+// J. Potential: of positions half a substep back, the discrete flight's (fe_world_get_energy)
+void fe__world_energy(const fe_world *world, double *out_kinetic, double *out_potential);
+// N s, and N m s about a point
+void fe__world_momentum(const fe_world *world, fe_dvec3 about, fe_dvec3 *out_linear, fe_dvec3 *out_angular);
+// Of all shapes of a body, or of all bodies (-1), but planes. 0: there are none
+int32_t fe__body_bounds(const fe_world *world, int32_t body, fe__bounds *out_bounds);
+fe__bounds fe__whole_bounds(const fe_world *world, int32_t shape); // of a shape that is no plane
 
 #endif

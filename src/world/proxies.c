@@ -1,7 +1,8 @@
 // proxies.c - see proxies.h.
 #include "world/proxies.h"
 
-#include "collision/form/hull_form.h"
+#include "collision/form/hull.h"
+#include "world/contact.h"
 
 // A box in a tree is larger than its shape by half the speculative distance, for shapes no further apart than that must
 // have a pair, and by a share of its size, so that a body may move a while before its tree changes: larger ones move

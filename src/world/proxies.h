@@ -4,6 +4,7 @@
 // of a disabled body in none. A new place is noted in fe_world.moved, from which the next step finds new pairs.
 #ifndef FE_WORLD_PROXIES_H
 #define FE_WORLD_PROXIES_H
+#include "world/contact.h"
 #include "world/world.h"
 
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);

@@ -4,9 +4,9 @@
 // show is sorted by creation.
 #include "world/sleep.h"
 
-#include "world/joint_list.h"
-#include "world/pair_list.h"
-#include "world/speed.h"
+#include "world/joint.h"
+#include "world/contact.h"
+#include "world/body.h"
 
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
 int32_t fe__world_rests(const fe_world *world)

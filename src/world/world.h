@@ -6,22 +6,33 @@
 #define FE_WORLD_WORLD_H
 #include "broadphase/pair_set.h"
 #include "broadphase/tree.h"
+#include "collision/form/form.h"
+#include "collision/form/heightfield.h"
+#include "collision/manifold/patch.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
 #include "core/owner.h"
-#include "core/record_pool.h"
 #include "core/threads.h"
+#include "solver/contact/skip_test.h"
 #include "solver/solver.h"
-#include "solver/body.h"
+#include "solver/solver_body.h"
 #include "store/store.h"
 #include "world/clusters.h"
-#include "world/event_record.h"
-#include "world/joint_record.h"
-#include "world/pair.h"
-#include "solver/contact/deferral.h"
-#include "collision/form/heightfield.h"
-#include "collision/form/shape.h"
-#include "collision/manifold/patch.h"
+
+// ---- world ----------------------------------------------------------------------------------------------------------
+
+// Records that world/contact.h and world/joint.h define.
+typedef struct fe__pair fe__pair;
+typedef struct fe__points fe__points;
+typedef struct fe__features fe__features;
+typedef struct fe__extra fe__extra;
+typedef struct fe__pair_event_record fe__pair_event_record;
+typedef struct fe__body_event_record fe__body_event_record;
+typedef struct fe__hit_event_record fe__hit_event_record;
+typedef struct fe__joint_event_record fe__joint_event_record;
+typedef struct fe__joint_record fe__joint_record;
+
+enum { FE__JOINT_TYPES = FE_JOINT_CONFIGURABLE + 1 }; // 0 is none
 
 // An asset of the store that shapes of this world have.
 typedef struct fe__asset_use {
@@ -36,7 +47,7 @@ struct fe_world {
     uint64_t user_data;
     int32_t number; // in its handles
 
-    struct fe_history *first_history; // those that keep frames of this world (state/history.h)
+    struct fe_history *first_history; // those that keep frames of this world (snapshot/history.h)
     const struct fe_batch *batch;     // whose it is, or NULL: nobody else's (batch/batch.h)
 
     fe_pair_filter pair_filter; // or NULL
@@ -72,7 +83,7 @@ struct fe_world {
     fe__contact *contacts;
     fe__pair *pairs;
     int32_t contact_capacity, pair_capacity;
-    // of those that have points, by fe__contact.points; see points.h
+    // of those that have points, by fe__contact.points; see contact_solver.h
     fe__points *points;
     fe__features *features;
     uint64_t *point_serials;     // fe__pair_serial of A and of B, two a record
@@ -101,7 +112,7 @@ struct fe_world {
     fe__record_pool encounters;
     int32_t encounter_count, part_pair_count; // pairs that are in one
     int32_t first_changed;                    // encounter to report of, 0: none
-    // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (ignore.h)
+    // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (filter.h)
     fe__pair_set ignored;
     fe__record_pool ignores;
 
@@ -118,7 +129,7 @@ struct fe_world {
     // who is awake: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
-    int32_t *awake_pairs;    // or ~pair, see deferral.h
+    int32_t *awake_pairs;    // or ~pair, see skip_test.h
     fe__deferral *deferrals; // beside it
     int32_t awake_pair_count, awake_pair_capacity, deferral_capacity;
     int32_t *awake_joints;
@@ -147,8 +158,8 @@ struct fe_world {
     int32_t joint_event_count, joint_event_capacity;
 
     fe__solver solver;                // graph, rows, body lines
-    struct fe__step_scratch *scratch; // of the stages (step_scratch.h)
-    fe__memory *step_memory;          // of both: `memory`, or of the workroom that lends them (workroom.h)
+    struct fe__step_scratch *scratch; // of the stages (world_memory.h)
+    fe__memory *step_memory;          // of both: `memory`, or of the workroom that lends them (world_memory.h)
     int64_t step_number;              // of the last step, 0: none yet
     float last_h;                     // substep length that the stored impulses belong to, s, 0: none
     float last_dt;                    // of the last step that moved anything, s: how far ahead boxes look
@@ -167,6 +178,23 @@ static inline int32_t fe__next_of_whole(const fe_world *world, int32_t whole, in
 static inline int32_t fe__is_of_whole(const fe_world *world, int32_t record, int32_t whole)
 {
     return record == whole || world->shapes[record].parent == whole;
+}
+
+// ---- handles --------------------------------------------------------------------------------------------------------
+// The handle of a record.
+
+static inline fe_handle fe__body_handle(const fe_world *world, int32_t body)
+{
+    return fe__id_pool_handle(&world->body_ids, body);
+}
+// Of a part: that of its compound
+static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape)
+{
+    return fe__id_pool_handle(&world->shape_ids, fe__whole_shape(world->shapes, shape));
+}
+static inline fe_handle fe__joint_handle(const fe_world *world, int32_t joint)
+{
+    return fe__id_pool_handle(&world->joint_ids, joint - 1); // joint 0 is none
 }
 
 #endif

@@ -1,7 +1,7 @@
 // Drawing: what is drawn is where the bodies are and as large as they are, in whatever buffer, from wherever it is
 // seen.
 #include "api/api_test.h"
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "support/play.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // The API of worlds: definitions, settings, the step and who may call during one, memory that runs out.
 #include "api/api_test.h"
-#include "core/aligned.h"
+#include "core/memory.h"
 
 #include <fenv.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 // of creation. Nothing of the trees.
 #include "api/api_test.h"
 
-#include "collision/cast/ray.h"
+#include "collision/cast/cast_kinds.h"
 
 // ---- a random world and its reference ------------------------------------------------------------------------------
 

@@ -2,7 +2,7 @@
 // fails when it is told to.
 #ifndef FE_TESTS_COUNTING_ALLOCATOR_H
 #define FE_TESTS_COUNTING_ALLOCATOR_H
-#include "core/aligned.h"
+#include "core/memory.h"
 #include "fe_test.h"
 #include "feather.h"
 

@@ -3,7 +3,7 @@
 // For ThreadSanitizer above all: a step takes no lock, and what the loader writes is nothing that a step reads. What
 // the worlds compute must not show that there was a loader.
 #include "api/api_test.h"
-#include "core/aligned.h"
+#include "core/memory.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -98,7 +98,7 @@ static void a_body_of_a_moving_heap_takes_some_kilobytes_on_every_set(void **sta
 }
 
 // ---- born in one point ---------------------------------------------------------------------------------------------
-enum { FORMS = 7, THOUSAND = 1000, KEPT = 24 }; // KEPT: see src/step/crowd.c
+enum { FORMS = 7, THOUSAND = 1000, KEPT = 24 }; // KEPT: see src/step/find_pairs.c
 
 // What is born there: all of one form, or each of any
 typedef struct burst {

@@ -5,7 +5,7 @@
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
-#include "world/points.h"
+#include "world/contact.h"
 
 static int32_t most_failures = 400; // allocations that fail, over all runs
 

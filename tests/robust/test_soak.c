@@ -9,7 +9,7 @@
 //
 // tests/robust/soak_cost counts the instructions of the last 600 steps of the second minute and of the last one.
 #include "fe_test.h"
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "robust/counting_allocator.h"
 #include "robust/round_forms.h"
 #include "support/any_joint.h"

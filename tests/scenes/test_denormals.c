@@ -3,7 +3,7 @@
 // right bits a hundred times as slowly, so only a count shows them.
 #include "scenes/joint_scene.h"
 
-#include "solver/contact/deferral.h"
+#include "solver/contact/skip_test.h"
 #include "world/world.h"
 
 #include <float.h>

@@ -1,6 +1,6 @@
 // Meshes carry what rests, slides, rolls and falls on them as a plane does; edges that are not there are not felt, and
 // nothing passes.
-#include "core/aligned.h"
+#include "core/memory.h"
 #include "scenes/meshes.h"
 
 #include <string.h>

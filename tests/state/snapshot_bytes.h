@@ -1,7 +1,7 @@
 // snapshot_bytes.h - the bytes of a snapshot in tests: saved, and with right sums after a change.
 #ifndef FE_TEST_SNAPSHOT_BYTES_H
 #define FE_TEST_SNAPSHOT_BYTES_H
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "fe_test.h"
 
 #include <stdlib.h>

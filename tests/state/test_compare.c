@@ -1,7 +1,7 @@
 // test_compare.c - where two worlds first differ: each kind of record, one bit of a velocity, what is missing, what
 // does not count; and bytes that nobody saved.
 #include "state/snapshot_bytes.h"
-#include "state/table.h"
+#include "snapshot/format.h"
 #include "support/play.h"
 
 #include <math.h>

@@ -24,7 +24,7 @@ static bytes save(const fe_world *world)
     return b;
 }
 
-// Of the section at a place: its number, see src/state/table.h
+// Of the section at a place: its number, see src/snapshot/format.h
 static uint32_t word_at(bytes b, int64_t at)
 {
     uint32_t word = 0;

@@ -1,9 +1,8 @@
 // test_hostile.c - bytes that nobody saved: cut, flipped, random numbers under right sums. They are refused, and
 // nothing changed; or the world lives: it steps, it is saved, and what is read of it is a number.
 #include "collision/form/clip.h"
-#include "state/format.h"
+#include "snapshot/format.h"
 #include "state/snapshot_bytes.h"
-#include "state/table.h"
 #include "support/play.h"
 
 #include <math.h>

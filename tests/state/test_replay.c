@@ -1,10 +1,9 @@
 // test_replay.c - recordings that something happened to: altered, cut, kept short, played backwards, or made with a
 // filter, a restore, an edited ground; and what goes wrong is named.
 #include "core/bytes.h"
-#include "core/hash.h"
 #include "fe_test.h"
-#include "record/chunks.h"
-#include "record/ops.h"
+#include "recording/recorder.h"
+#include "recording/ops.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
 #include "support/recorded.h"

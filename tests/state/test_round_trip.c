@@ -5,7 +5,7 @@
 //   test_round_trip [moments]    20; 1000 before a release
 #include "api/api_test.h"
 #include "state/snapshot_bytes.h"
-#include "state/table.h"
+#include "snapshot/format.h"
 #include "support/fuzz_state.h"
 
 enum { SCENES = 100, STEPS = 600, STREAM = 1 << 15, NUMBER = 3, LEAST_MOMENTS = 20 };

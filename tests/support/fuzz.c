@@ -3,7 +3,7 @@
 // What must always hold: nothing crashes; a call that returns an error, or only reads, leaves every byte of a snapshot;
 // an accepted call leaves numbers only; a call that found no memory can be repeated; the fingerprint can be computed;
 // what the world saves at the end is accepted.
-#include "core/aligned.h"
+#include "core/memory.h"
 #include "support/fuzz_state.h"
 
 #include <math.h>

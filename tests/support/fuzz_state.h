@@ -1,7 +1,7 @@
 // fuzz_state.h - what the harness and the calls share: the stream, the handles that were ever given, room for arrays.
 #ifndef FE_TESTS_FUZZ_STATE_H
 #define FE_TESTS_FUZZ_STATE_H
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "feather.h"
 #include "support/fuzz.h"
 #include "support/values.h"

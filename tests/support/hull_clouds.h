@@ -2,7 +2,7 @@
 // cloud on every machine.
 #ifndef FE_TESTS_HULL_CLOUDS_H
 #define FE_TESTS_HULL_CLOUDS_H
-#include "core/trig.h"
+#include "core/math.h"
 #include "feather.h"
 
 #include <math.h>

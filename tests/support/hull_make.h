@@ -1,8 +1,8 @@
 // hull_make.h - hulls without a store.
 #ifndef FE_TESTS_HULL_MAKE_H
 #define FE_TESTS_HULL_MAKE_H
-#include "collision/hull_build/build.h"
-#include "core/aligned.h"
+#include "collision/hull_build/hull_builder.h"
+#include "core/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef FE_TESTS_MESH_MAKE_H
 #define FE_TESTS_MESH_MAKE_H
 #include "collision/cast/mesh_ray.h"
-#include "collision/mesh_build/build.h"
-#include "core/aligned.h"
+#include "collision/mesh_build/mesh_build.h"
+#include "core/memory.h"
 #include "solver/solver.h"
 
 #include <stdlib.h>

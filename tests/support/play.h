@@ -6,7 +6,7 @@
 // order of two draws open.
 #ifndef FE_TESTS_PLAY_H
 #define FE_TESTS_PLAY_H
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "feather.h"
 #include "support/values.h"
 

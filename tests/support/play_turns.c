@@ -1,6 +1,6 @@
 // play_turns.c - the script of turning sweeps: forms of every kind that move and turn are thrown into a yard of posts,
 // planks and a ground of triangles, and put where they stop; batches ask for many ways at once.
-#include "core/trig.h"
+#include "core/math.h"
 #include "support/play.h"
 
 #include <math.h>

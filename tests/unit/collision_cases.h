@@ -2,7 +2,7 @@
 #ifndef COLLISION_CASES_H
 #define COLLISION_CASES_H
 #include "collision/manifold/collide.h"
-#include "collision/manifold/kernels.h"
+#include "collision/manifold/pair_kernels.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #ifndef FE_TESTS_JOINT_RIG_H
 #define FE_TESTS_JOINT_RIG_H
 #include "../fe_test.h"
-#include "core/hash.h"
+#include "core/bytes.h"
 #include "solver/graph/graph.h"
 #include "solver/solve.h"
 

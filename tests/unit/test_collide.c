@@ -3,8 +3,7 @@
 #include "fe_test.h"
 
 #include "collision/manifold/collide.h"
-#include "collision/manifold/kernels.h"
-#include "collision/form/epa.h"
+#include "collision/manifold/pair_kernels.h"
 #include "collision/form/gjk.h"
 
 #include "collision_cases.h"

@@ -1,7 +1,7 @@
 // Colours of a body: as many as it has bits.
 #include "fe_test.h"
 
-#include "solver/graph/colour.h"
+#include "solver/graph/graph.h"
 
 static int32_t count_one_by_one(const fe__body *body)
 {

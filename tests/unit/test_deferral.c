@@ -2,8 +2,8 @@
 // what is moved by hand is looked at in the next step.
 #include "api/api_test.h"
 
-#include "step/narrow.h"
-#include "solver/contact/deferral.h"
+#include "step/narrowphase.h"
+#include "solver/contact/skip_test.h"
 
 #include <math.h>
 

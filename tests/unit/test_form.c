@@ -2,7 +2,6 @@
 #include "fe_test.h"
 
 #include "collision/form/form.h"
-#include "collision/form/support.h"
 
 #include "collision_cases.h"
 

@@ -2,7 +2,6 @@
 // axes.
 #include "fe_test.h"
 
-#include "collision/form/epa.h"
 #include "collision/form/gjk.h"
 
 #include "collision_cases.h"

@@ -1,7 +1,7 @@
 // The fingerprint depends on every bit, on the order, and on nothing of the machine.
 #include "fe_test.h"
 
-#include "core/hash.h"
+#include "core/bytes.h"
 
 static uint64_t hash_of(const uint64_t *words, int count)
 {

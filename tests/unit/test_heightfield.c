@@ -2,7 +2,7 @@
 // small field.
 #include "fe_test.h"
 
-#include "collision/cast/ray.h"
+#include "collision/cast/cast_kinds.h"
 #include "collision/form/gjk.h"
 #include "collision/form/heightfield.h"
 #include "collision_cases.h"

@@ -1,6 +1,6 @@
 // The axis of least overlap of two hulls, against the definition: of all directions n the greatest of
 // min over B of n . x - max over A of n . x.
-#include "collision/manifold/hull_axis.h"
+#include "collision/manifold/hull_hull.h"
 #include "fe_test.h"
 
 #include <float.h>

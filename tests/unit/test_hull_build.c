@@ -2,8 +2,8 @@
 // walks over everything (support/hull_judge.h).
 //
 //     build/tests/unit/test_hull_build 1000000            that many clouds
-#include "core/hash.h"
-#include "core/trig.h"
+#include "core/bytes.h"
+#include "core/math.h"
 #include "fe_test.h"
 #include "support/hull_clouds.h"
 #include "support/hull_judge.h"

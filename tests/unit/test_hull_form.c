@@ -1,5 +1,5 @@
 // Where hulls end: support, facing, reach, bounds and rays, by walks over everything, on hulls of random clouds.
-#include "collision/cast/nearest.h"
+#include "collision/cast/cast_kinds.h"
 #include "fe_test.h"
 #include "support/hull_clouds.h"
 #include "support/hull_make.h"

@@ -1,9 +1,9 @@
 // Points of a hull and a hull, box, ball or capsule: the deepest is among them, they are as deep as the overlap is, and
 // their names differ.
-#include "collision/form/epa.h"
-#include "collision/form/hull_form.h"
+#include "collision/form/gjk.h"
+#include "collision/form/hull.h"
 #include "collision/manifold/collide.h"
-#include "collision/manifold/hull_axis.h"
+#include "collision/manifold/hull_hull.h"
 #include "fe_test.h"
 #include "support/hull_clouds.h"
 #include "support/hull_make.h"

@@ -6,7 +6,7 @@
 #define FE_PLAIN_C 1
 #define FE_W 4
 #define FE_SIMD_SET unit
-#include "solver/tree/tree.simd.c"
+#include "solver/tree/tree_solver.simd.c"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,6 @@
 // The allocator is counted, hands out zeroed aligned blocks, and loses nothing when it fails.
 #include "fe_test.h"
 
-#include "core/aligned.h"
 #include "core/memory.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // The builder of meshes: welding, what is dropped, edges, the tree's invariants, numbers, and the API of the asset.
-#include "core/aligned.h"
-#include "core/hash.h"
+#include "core/memory.h"
+#include "core/bytes.h"
 #include "fe_test.h"
 #include "support/mesh_make.h"
 #include "support/values.h"

@@ -2,7 +2,7 @@
 #include "fe_test.h"
 
 #include "broadphase/pair_set.h"
-#include "core/aligned.h"
+#include "core/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // body is a convex function, whose minimum and first zero are searched for in long double.
 #include "fe_test.h"
 
-#include "collision/cast/ray.h"
+#include "collision/cast/cast_kinds.h"
 
 #include <float.h>
 #include <math.h>

@@ -4,12 +4,10 @@
 // answer says proves that nothing is nearer, and a point of the form proves that nothing is farther.
 #include "fe_test.h"
 
-#include "collision/cast/nearest.h"
-#include "collision/cast/ray.h"
+#include "collision/cast/cast_kinds.h"
 #include "collision/cast/sweep.h"
-#include "collision/form/epa.h"
 #include "collision/form/gjk.h"
-#include "collision/form/support.h"
+#include "collision/form/form.h"
 
 #include "collision_cases.h"
 

@@ -4,8 +4,8 @@
 #include "support/hull_make.h"
 #include "support/mesh_make.h"
 
-#include "collision/cast/nearest.h"
-#include "collision/hull_build/scale.h"
+#include "collision/cast/cast_kinds.h"
+#include "collision/hull_build/hull_builder.h"
 #include "support/hull_judge.h"
 
 #ifdef FE_SANITIZED

@@ -1,7 +1,7 @@
 // Shares of blocks: each block once, neighbours to one worker, the same in each pass.
 #include "fe_test.h"
 
-#include "core/shares.h"
+#include "core/memory.h"
 
 enum { MOST_BLOCKS = 300, BLOCKS_OF_CREW = 7400 };
 

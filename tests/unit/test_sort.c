@@ -1,7 +1,7 @@
 // Sorting keys: in order, nothing lost, ties as they came.
 #include "fe_test.h"
 
-#include "core/array_sort.h"
+#include "core/sort.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // What a form touches on its way past a mesh is what it touches when all triangles are looked at: none that it meets is
 // left out, wherever on its way it is looked at, and all SIMD sets leave out the same.
-#include "collision/form/hull_form.h"
-#include "collision/manifold/terrain.h"
+#include "collision/form/hull.h"
+#include "collision/manifold/collide.h"
 #include "collision/manifold/terrain_course.h"
 #include "fe_test.h"
 #include "support/hull_make.h"

@@ -1,8 +1,7 @@
 // Distances of placed forms against closed forms, and the time of impact against a walk along the whole motion.
 #include "fe_test.h"
 
-#include "collision/cast/distance.h"
-#include "collision/cast/nearest.h"
+#include "collision/cast/cast_kinds.h"
 #include "collision/cast/toi.h"
 
 #if defined(FE_SANITIZED)

@@ -2,7 +2,7 @@
 #include "fe_test.h"
 
 #include "broadphase/tree.h"
-#include "core/aligned.h"
+#include "core/memory.h"
 #include "solver/solver.h"
 
 #include <float.h>

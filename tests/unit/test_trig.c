@@ -1,8 +1,8 @@
 // Sine, cosine and arc tangent: as exact as promised, symmetric, and the same bits everywhere.
 #include "fe_test.h"
 
-#include "core/hash.h"
-#include "core/trig.h"
+#include "core/bytes.h"
+#include "core/math.h"
 
 #include <float.h>
 #include <math.h>

@@ -326,11 +326,11 @@ namespace FeatherPhysics.Tests
 
         // ---- of another library ----
 
-        const ulong Factor = 0x9E3779B97F4A7C15; // src/core/hash.h
+        const ulong Factor = 0x9E3779B97F4A7C15; // src/core/bytes.h
 
         static ulong SumOfHeader(byte[] bytes)
         {
-            ulong[] words = // src/state/format.h: not the number, nor the sum; their count, and two to mix
+            ulong[] words = // src/snapshot/format.h: not the number, nor the sum; their count, and two to mix
             {
                 BitConverter.ToUInt64(bytes, 0), BitConverter.ToUInt64(bytes, 8), BitConverter.ToUInt32(bytes, 16),
                 BitConverter.ToUInt64(bytes, 24), BitConverter.ToUInt64(bytes, 40), 5, 0, 0,

@@ -166,7 +166,7 @@ test('what is no recording, or was altered, is refused; what stands before it pl
     assert.throws(() => new Player(null, { simd: 'avx2' }), { code: 'FE_ERROR_UNSUPPORTED' });
 });
 
-// The chunks of a recording, by src/record/format.h: a header of 40 bytes, then 32 of each chunk, the third number its size
+// The chunks of a recording, by src/recording/recorder.h: a header of 40 bytes, then 32 of each chunk, the third number its size
 function chunks(bytes) {
     const view = new DataView(bytes.buffer, bytes.byteOffset), found = [bytes.subarray(0, 40)];
     for (let at = 40; at < bytes.length;) {

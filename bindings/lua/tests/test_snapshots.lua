@@ -431,7 +431,7 @@ local function word_bytes(word)
     return table.concat(made)
 end
 
--- Of src/core/hash.h and src/state/write.c: the sum of a header's fields.
+-- Of src/core/bytes.h and src/snapshot/write.c: the sum of a header's fields.
 local function header_sum(bytes)
     local state = wide.zero
     local words = { word_at(bytes, 0, 8), word_at(bytes, 8, 8), word_at(bytes, 16, 4), word_at(bytes, 24, 8),

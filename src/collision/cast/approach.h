@@ -1,12 +1,55 @@
 // approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
 //
-// Every form but the plane, hulls and what has a rim (approach_curved.c), is a core - a point, a segment along y, a box
+// Every form but the plane, hulls and what has a rim (approach.c), is a core - a point, a segment along y, a box
 // - swelled by its radius. Of two forms the one whose core has more dimensions gives the frame, whichever of them
 // moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only a height: what separates
 // boxes serves all.
 #ifndef FE_COLLISION_CAST_APPROACH_H
 #define FE_COLLISION_CAST_APPROACH_H
-#include "collision/cast/mover.h"
+#include "collision/form/ground.h"
+
+// ---- mover ----------------------------------------------------------------------------------------------------------
+// A form that moves in the frame of another, and where it is stopped.
+
+#define FE_SWEEP_GAP 1e-7 // m
+// Forms touch when they overlap by no more than this, or are no farther apart, m. It is a hundredth of the gap, and
+// more than rounding makes of an exact touch.
+#define FE_SWEEP_TOUCH 1e-9
+
+// Three columns of a rotation: the images of the axes.
+typedef struct fe__axes {
+    fe_dvec3 x, y, z;
+} fe__axes;
+
+fe__axes fe__axes_of(fe_quat q); // of any length
+static inline fe_dvec3 fe__turn(const fe__axes *m, fe_dvec3 a)
+{
+    return fe__dadd(fe__dadd(fe__dscale(a.x, m->x), fe__dscale(a.y, m->y)), fe__dscale(a.z, m->z));
+}
+static inline fe_dvec3 fe__turn_back(const fe__axes *m, fe_dvec3 a)
+{
+    return (fe_dvec3){fe__ddot(m->x, a), fe__ddot(m->y, a), fe__ddot(m->z, a)};
+}
+
+// The moving form (anything bounded) in the frame of the standing one.
+typedef struct fe__mover {
+    const fe__form *form;
+    fe__axes axes;
+    fe_dvec3 position, translation; // m
+    fe_dvec3 turn;                  // rad: the axes turn so far about it on the way, about the position; 0: not at all
+} fe__mover;
+
+typedef struct fe__sweep_hit {
+    double t;         // of the translation
+    fe_dvec3 normal;  // unit, out of the standing form; inside: the shortest way out
+    fe_dvec3 point;   // of the standing form's surface, where it is met; inside: the mover's position
+    double depth;     // inside: how far out that way, m
+    int32_t inside;   // the forms overlap at the start
+    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
+    int32_t index;    // of a triangle of the ground: see ground.h
+} fe__sweep_hit;
+
+// ---- approach -------------------------------------------------------------------------------------------------------
 
 typedef enum fe__core_kind {
     FE_CORE_POINT,
@@ -60,7 +103,7 @@ int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *h
 // Returns a point of the frame's form at which the two touch at the start, across the normal.
 fe_dvec3 fe__boxes_touching_point(const fe__approach *a, fe_dvec3 normal);
 
-// ---- hulls, and what has a rim (approach_curved.c) ------------------------------------------------------------------
+// ---- hulls, and what has a rim (approach.c) ------------------------------------------------------------------
 static inline int32_t fe__is_curved_pair(const fe__approach *a)
 {
     return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;

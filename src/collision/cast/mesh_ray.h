@@ -6,7 +6,7 @@
 #ifndef FE_COLLISION_CAST_MESH_RAY_H
 #define FE_COLLISION_CAST_MESH_RAY_H
 #include "collision/form/ground.h"
-#include "collision/form/ray_hit.h"
+#include "collision/form/form.h"
 #include "core/simd_sets.h"
 
 // A translation that moves less than this moves by nothing, m

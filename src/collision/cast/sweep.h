@@ -6,7 +6,7 @@
 // at once. What does not come nearer is never hit, however close it passes.
 #ifndef FE_COLLISION_CAST_SWEEP_H
 #define FE_COLLISION_CAST_SWEEP_H
-#include "collision/cast/mover.h"
+#include "collision/cast/approach.h"
 
 // The first t in [0, limit] at which they meet. 1: hit.
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit);

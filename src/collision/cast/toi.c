@@ -1,7 +1,7 @@
 // toi.c - see toi.h.
 #include "collision/cast/toi.h"
 
-#include "collision/cast/distance.h"
+#include "collision/cast/cast_kinds.h"
 
 // What comes this near so slowly is taken for a touch. A stick of length l that turns past a wall, its tip e off, takes
 // pi (2 l / e)^(1/2) steps: 450 at a ten-thousandth of its length.

@@ -1,10 +1,10 @@
 // compound.h - what a compound is made of. It lives in the store; a shape that has it owns a shape for each part
-// (world/parts.h), so that nothing collides with a compound as such.
+// (world/shape.h), so that nothing collides with a compound as such.
 #ifndef FE_COLLISION_FORM_COMPOUND_H
 #define FE_COLLISION_FORM_COMPOUND_H
 #include "collision/form/form.h"
 
-// A part's number has 16 bits, of which 0 says that a shape is none (shape.h)
+// A part's number has 16 bits, of which 0 says that a shape is none (form.h)
 enum { FE__MOST_PARTS = 65535 };
 
 typedef struct fe__compound_part {

@@ -1,9 +1,9 @@
-// epa.c - depth of two cores that overlap; see epa.h.
+// epa.c - depth of two cores that overlap; see gjk.h.
 //
 // A polytope inside the cores' difference, with the origin in it, is blown up where its surface is nearest the origin
 // until that face is one of the difference itself: van den Bergen (2001). Differences without volume (points, lines and
 // plane figures: two segments, or a segment and a point) have depth 0 and are left across themselves.
-#include "collision/form/epa.h"
+#include "collision/form/gjk.h"
 
 #include <string.h>
 

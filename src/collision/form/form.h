@@ -5,14 +5,19 @@
 //
 // A new form takes
 //   - its kind below (before the triangle; of two forms the later one is A in fe__collide), and its fields in fe__form,
-//   - a file here with what fe__form_traits lists, and its line in table.c,
+//   - a file here with what fe__form_traits lists, and its line in form_table.c,
 //   - in manifold/ a kernel for each partner that deserves one, in the table of collide.c; the general convex path
 //   serves all others,
-//   - in cast/ its ray and its nearest point, and its line in cast/table.c,
+//   - in cast/ its ray and its nearest point, and its line in cast/cast_table.c,
 //   - its public number and fields in feather.h, which the API reads in one place.
 #ifndef FE_COLLISION_FORM_FORM_H
 #define FE_COLLISION_FORM_FORM_H
+#include "collision/form/clip.h"
 #include "core/math.h"
+
+#include <stddef.h>
+
+// ---- form -----------------------------------------------------------------------------------------------------------
 
 // The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields and meshes hand
 // out theirs one by one. A compound is no form to touch: its parts are (compound.h).
@@ -97,7 +102,7 @@ static inline void fe__bounds_add(fe__bounds *all, const fe__bounds *b)
                            fe__maxd(all->high.z, b->high.z)};
 }
 
-struct fe__face; // support.h
+struct fe__face; // form.h
 
 // ---- traits --------------------------------------------------------------------------------------------------------
 typedef struct fe__form_traits {
@@ -122,7 +127,7 @@ typedef struct fe__form_traits {
     fe_dvec3 (*support)(const fe__form *form, fe_dvec3 direction);
     void (*face)(const fe__form *form, fe_vec3 direction, struct fe__face *face);
 } fe__form_traits;
-extern const fe__form_traits fe__forms[FE__FORM_TYPES]; // table.c
+extern const fe__form_traits fe__forms[FE__FORM_TYPES]; // form_table.c
 
 static inline const fe__form_traits *fe__traits_of(const fe__form *form) { return fe__forms + form->type; }
 static inline int32_t fe__form_is_static_only(const fe__form *form) { return fe__traits_of(form)->static_only; }
@@ -187,10 +192,135 @@ static inline int32_t fe__form_is_point(const fe__form *form)
     return form->type == FE__FORM_SPHERE && form->radius == 0.0f;
 }
 
-// ---- planes (plane.c) ----------------------------------------------------------------------------------------------
-// Does the box reach into the half space?
+// ---- planes (surface.c)
+// ---------------------------------------------------------------------------------------------- Does the box reach
+// into the half space?
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box, double gap);
 // The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off
 void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away);
+
+// ---- shape ----------------------------------------------------------------------------------------------------------
+// The record of a shape: form, local pose, material, filter; where it is now and its box in the broad phase.
+
+enum {
+    FE__SHAPE_TRIGGER = 1,
+    FE__SHAPE_CENTRED = 2, // local pose is the identity
+    FE__SHAPE_IN_TREE = 4,
+    FE__SHAPE_IN_PLANES = 8, // planes are in a list, not in a tree
+    FE__SHAPE_JUDGED = 32,   // the pair filter judges its new pairs
+    FE__SHAPE_ONE_WAY = 64,  // holds back only what comes against one_way
+    FE__SHAPE_MOVED = 16     // in the list of proxies whose box is new: looks for pairs in the next step
+};
+
+// A serial holds, from the low bits, the number of a part + 1 (0: no part), then that of creation. So parts come behind
+// their compound, and before what was created after it.
+enum { FE__PART_BITS = 16 };
+static inline int32_t fe__part_of_serial(uint64_t serial)
+{
+    return (int32_t)(serial & ((1u << FE__PART_BITS) - 1)) - 1;
+}
+static inline uint64_t fe__serial_of_whole(uint64_t serial) { return serial >> FE__PART_BITS << FE__PART_BITS; }
+
+// First what a query reads: two cache lines.
+typedef struct fe__shape {
+    uint32_t layer, mask;
+    uint32_t flags; // FE__SHAPE_*
+    int32_t body;
+    fe__pose pose; // in the world, follows the body
+    fe__form form;
+    fe_vec3 local_position; // m, body's frame
+    fe_quat local_rotation;
+    fe_material material;
+    int32_t group;   // 0: none
+    uint32_t events; // fe_shape_events
+    float density;
+    float arm; // from the body's centre of mass to the farthest point of its core, m; 0 for what is static only
+    fe_vec3 surface_velocity;
+    fe_vec3 one_way;        // its own frame, any length but zero
+    int32_t next, previous; // of the body's shapes, in the order of creation
+    uint64_t serial;        // of creation and of the part, never reused by another shape
+    uint64_t body_serial;   // of its body
+    uint64_t user_data;
+    int32_t next_user; // of the same asset, -1: none
+    int32_t parent;    // the shape whose part it is, right before the parts in the body's list; -1: it is no part
+} fe__shape;
+
+// What the caller knows: of a part, its compound
+static inline int32_t fe__whole_shape(const fe__shape *shapes, int32_t shape)
+{
+    int32_t parent = shapes[shape].parent;
+    return parent >= 0 ? parent : shape;
+}
+
+// ---- sound ----------------------------------------------------------------------------------------------------------
+// Forms as numbers, and forms that come from bytes.
+
+// What is no asset's of a form: all there is of one without an asset, and the kind alone of another
+typedef struct fe__form_numbers {
+    int32_t kind; // fe__form_type
+    float radius, half_height, distance;
+    fe_vec3 half, normal;
+} fe__form_numbers;
+fe__form_numbers fe__numbers_of_form(const fe__form *form);
+fe__form fe__form_of_numbers(const fe__form_numbers *numbers);
+
+// Is it one that the API could have made, of those without an asset?
+int32_t fe__form_is_sound(const fe__form *form);
+static inline int32_t fe__forms_are_alike(const fe__form *a, const fe__form *b)
+{
+    return a->type == b->type;
+} // in kind
+// Have they the same kind and the same numbers, or the same asset?
+int32_t fe__forms_are_same(const fe__form *a, const fe__form *b);
+
+// ---- ray hit --------------------------------------------------------------------------------------------------------
+// Where a ray meets a form.
+
+typedef struct fe__ray_hit {
+    double t;
+    fe_dvec3 normal; // unit, form's frame
+    double depth;    // > 0 when inside, else 0
+    int32_t inside;
+    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
+    int32_t index;    // of a triangle of the ground: see ground.h
+} fe__ray_hit;
+
+// ---- support --------------------------------------------------------------------------------------------------------
+// What the general convex path knows of a form: the core's farthest point in a direction, and the face that
+// looks that way.
+//
+// With both a form is complete for GJK, EPA and the manifold. The swelling radius stays outside: it is added to the
+// distance of the cores.
+
+// The point of the core farthest along `direction` (any length), form's frame. Of equally far points always the same.
+static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction)
+{
+    return fe__traits_of(form)->support(form, direction);
+}
+
+// A face of the core: polygon (turning left around the normal), segment or point, form's frame.
+typedef struct fe__face {
+    int32_t count;  // > 2 polygon, 2 segment, 1 point
+    fe_vec3 normal; // unit; of a polygon only
+    fe_vec3 vertex[FE_FACE_VERTICES];
+    uint32_t id;     // of the face within the form
+    float rim;       // a disc's radius, of whose rim the vertices are some points; else 0
+    int32_t low;     // of a disc: the vertex farthest along the direction asked for, or 0 where that is across the disc
+    int32_t pattern; // of a disc: FE_RIM_*
+    const fe_vec3 *foot; // given: where the load on the face presses, form's frame; NULL: nobody knows
+} fe__face;
+
+// Of more corners than a face gives, those over which the load leans are among them
+static inline void fe__form_face_under(const fe__form *form, fe_vec3 direction, const fe_vec3 *foot, fe__face *face)
+{
+    face->rim = 0.0f, face->pattern = FE_RIM_LEANS;
+    face->foot = foot;
+    fe__traits_of(form)->face(form, direction, face);
+}
+
+static inline void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
+{
+    fe__form_face_under(form, direction, NULL, face);
+}
 
 #endif

@@ -5,7 +5,7 @@
 // not hot and serves shapes from 1 mm to 100 km.
 #ifndef FE_COLLISION_FORM_GJK_H
 #define FE_COLLISION_FORM_GJK_H
-#include "collision/form/support.h"
+#include "collision/form/form.h"
 
 // Two forms and B's pose in A's frame, in which all below is given. `corners` may take the place of A: a triangle in
 // double.
@@ -52,5 +52,20 @@ void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *result
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *result);
 // The same from what it found when the second stood elsewhere, `shift` m back. Of forms with corners alone.
 void fe__gjk_distance_closely_after(const fe__cores *cores, fe_dvec3 shift, fe__gjk *result);
+
+// ---- epa ------------------------------------------------------------------------------------------------------------
+// Depth of two cores that overlap (van den Bergen, Proximity queries and penetration depth computation, 2001),
+// in double.
+//
+// Goes on from the simplex around the origin with which GJK ended.
+
+typedef struct fe__penetration {
+    fe_dvec3 normal;     // unit: B leaves A soonest along it
+    double depth;        // by so much, m, >= 0
+    fe_dvec3 on_a, on_b; // the deepest points of the cores; on_a is the farther along the normal
+} fe__penetration;
+
+// `overlap` is a result of fe__gjk_distance with overlap set.
+fe__penetration fe__epa_depth(const fe__cores *cores, const fe__gjk *overlap);
 
 #endif

@@ -1,7 +1,7 @@
 // ground.c - see ground.h.
 #include "collision/form/ground.h"
 
-#include "collision/form/solid.h"
+#include "collision/form/flat.h"
 
 void fe__ground_corners(const fe__ground *s, int32_t index, fe_dvec3 corner[3])
 {

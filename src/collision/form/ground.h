@@ -4,7 +4,7 @@
 #ifndef FE_COLLISION_FORM_GROUND_H
 #define FE_COLLISION_FORM_GROUND_H
 #include "collision/form/heightfield.h"
-#include "collision/form/mesh_walk.h"
+#include "collision/form/mesh.h"
 
 typedef struct fe__mesh_casts fe__mesh_casts; // collision/cast/mesh_ray.h
 

@@ -5,7 +5,7 @@
 // slips through an edge.
 #include "collision/form/heightfield.h"
 
-#include "collision/form/kinds.h"
+#include "collision/form/form_kinds.h"
 
 static float height_of(const fe__heightfield *f, int32_t row, int32_t column)
 {

@@ -12,7 +12,7 @@
 // A store owns the records; narrow phase and queries read them, on any thread.
 #ifndef FE_COLLISION_FORM_HEIGHTFIELD_H
 #define FE_COLLISION_FORM_HEIGHTFIELD_H
-#include "collision/form/ray_hit.h"
+#include "collision/form/form.h"
 
 enum {
     FE__CELL_HOLE = 255,         // in fe__heightfield.cells; else the index of a material

@@ -1,6 +1,12 @@
 // mesh.c - what is read of a mesh by triangle; see mesh.h.
 #include "collision/form/mesh.h"
 
+#include "core/lanes.h"
+
+#include <string.h>
+
+// ---- mesh -----------------------------------------------------------------------------------------------------------
+
 // The shortcut of an element that has one
 static int32_t shortcut_from(const fe__mesh *m, int32_t element)
 {
@@ -57,4 +63,214 @@ float fe__mesh_reach(const fe__form *form, fe_vec3 centre)
     fe_vec3 a = fe__sub(centre, form->low), b = fe__sub(form->high, centre);
     return fe__length(fe__vec3(fe__maxf(fe__absf(a.x), fe__absf(b.x)), fe__maxf(fe__absf(a.y), fe__absf(b.y)),
                                fe__maxf(fe__absf(a.z), fe__absf(b.z))));
+}
+
+// ---- mesh walk ------------------------------------------------------------------------------------------------------
+
+// Wider by more than a quotient is rounded
+static void unscale(double scale, double *low, double *high)
+{
+    const double rounding = 0x1p-51;
+    double a = *low / scale, b = *high / scale, from = fe__mind(a, b), to = fe__maxd(a, b);
+    *low = from - rounding * fe__absd(from), *high = to + rounding * fe__absd(to);
+}
+
+static int32_t serves(const fe__mesh_near *near, const fe__bounds *box)
+{
+    const fe_dvec3 *low = &near->box.low, *high = &near->box.high;
+    return near->count >= 0 && box->low.x >= low->x && box->low.y >= low->y && box->low.z >= low->z &&
+           box->high.x <= high->x && box->high.y <= high->y && box->high.z <= high->z;
+}
+
+void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__mesh_near *near, const fe__bounds *box,
+                         fe_dvec3 origin)
+{
+    walk->mesh = mesh, walk->box = *box, walk->origin = origin;
+    if (mesh->is_scaled) {
+        unscale(mesh->scale[0], &walk->box.low.x, &walk->box.high.x);
+        unscale(mesh->scale[1], &walk->box.low.y, &walk->box.high.y);
+        unscale(mesh->scale[2], &walk->box.low.z, &walk->box.high.z);
+    }
+    const double low[4] = {walk->box.low.x, walk->box.low.y, walk->box.low.z, 0.0},
+                 high[4] = {walk->box.high.x, walk->box.high.y, walk->box.high.z, 0.0};
+    for (int32_t k = 0; k < 4; ++k) walk->low[k] = fe__float_above(low[k]), walk->high[k] = -fe__float_above(-high[k]);
+    walk->near = near && serves(near, box) ? near : NULL;
+    walk->slot = 0, walk->end = walk->near ? near->count : 0;
+    walk->top = !walk->near;
+    walk->stack[0] = 0; // the root
+}
+
+// ---- nodes ---------------------------------------------------------------------------------------------------------
+// Eight bytes in a word. Bit 7 of each byte: byte of x is at least that of y (Warren, Hacker's Delight, 2-18)
+#define BYTES 0x0101010101010101u
+#define TOPS (0x80 * BYTES)
+static inline uint64_t at_least(uint64_t x, uint64_t y)
+{
+    uint64_t rest = (x | TOPS) - (y & ~TOPS);
+    return (x & ~y) | (~(x ^ y) & rest);
+}
+
+static inline uint64_t word_of(const uint8_t bytes[FE__MESH_WIDTH])
+{
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+// Bit i: the top bit of byte i of memory. The products of one byte each meet in no bit
+static inline uint32_t gather_tops(uint64_t tops)
+{
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    tops = __builtin_bswap64(tops);
+#endif
+    return (uint32_t)((tops >> 7) * 0x0102040810204080u >> 56);
+}
+
+// Bit i: the box meets that of child i. Steps are whole; the box is widened by more than what is rounded.
+static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
+{
+    const double widening = 1e-4; // steps
+    const int32_t last = 255;
+    const double low[3] = {w->box.low.x, w->box.low.y, w->box.low.z},
+                 high[3] = {w->box.high.x, w->box.high.y, w->box.high.z};
+    uint64_t met = TOPS;
+    for (int32_t k = 0; k < 3; ++k) {
+        double per_step = fe__mesh_per_step(node, k), origin = (double)node->origin[k];
+        double from = fe__clampd((low[k] - origin) * per_step, -1.0, 256.0) - widening,
+               to = fe__clampd((high[k] - origin) * per_step, -1.0, 256.0) + widening;
+        int32_t first = (int32_t)(from + 1.0), end = (int32_t)(to + 1.0); // truncated: none is below -1
+        if (first > last || end < 1) return 0;
+        met &= at_least(word_of(node->high[k]), (uint64_t)first * BYTES) &
+               at_least((uint64_t)fe__mini(end - 1, last) * BYTES, word_of(node->low[k]));
+    }
+    return gather_tops(met & TOPS) & ((1u << node->count) - 1);
+}
+
+// The first child on top
+static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
+{
+    uint32_t met = meet_boxes(w, node);
+    for (; met; met &= ~(1u << (31 - __builtin_clz(met))))
+        w->stack[w->top++] = node->first + (uint32_t)(31 - __builtin_clz(met));
+}
+
+// ---- triangles -----------------------------------------------------------------------------------------------------
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
+
+// Corner k of a triangle is the three floats at first + 3 corner[k], and one behind them that is another vertex's
+typedef struct corners {
+    const float *first;
+    const uint8_t *corner;
+} corners;
+static inline corners corners_of(const fe__mesh *mesh, int32_t slot)
+{
+    const fe__mesh_leaf *leaf = mesh->leaves + (uint32_t)slot / FE__MESH_LEAF;
+    return (corners){mesh->vertices + 3 * (size_t)leaf->first_vertex, leaf->corner[(uint32_t)slot % FE__MESH_LEAF]};
+}
+static inline fe__quad load_corner(const corners *c, int32_t k)
+{
+    return *(const loose_quad *)(c->first + 3 * (size_t)c->corner[k]);
+}
+
+static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
+{
+    const corners of = corners_of(mesh, slot);
+    fe__quad a = load_corner(&of, 0), b = load_corner(&of, 1), c = load_corner(&of, 2);
+    *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
+    *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
+}
+
+static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
+{
+    enum { THREE = 7 }; // the fourth lane is another vertex's, or none
+    fe__quad_int met = (*(const fe__quad *)s->low <= *(const fe__quad *)w->high) &
+                       (*(const fe__quad *)s->high >= *(const fe__quad *)w->low);
+    return (fe__quad_signs(met) & THREE) == THREE;
+}
+
+void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle)
+{
+    const corners of = corners_of(mesh, slot);
+    const double *s = mesh->scale;
+    const fe__doubles scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y},
+                      z = {origin.z, origin.z};
+    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe__quad p = load_corner(&of, fe__mesh_own_corner(mesh, k));
+        fe__quad corner = fe__quad_narrow(scale_xy * fe__doubles_low(p) - xy, scale_z * fe__doubles_high(p) - z);
+        memcpy(triangle->vertex + k, &corner, sizeof *triangle->vertex);
+    }
+}
+
+// Down to the next leaf whose box is met; 0: no more
+static int32_t find_leaf(fe__mesh_walk *w)
+{
+    while (w->top) {
+        uint32_t child = w->stack[--w->top];
+        if (!(child & FE__MESH_LEAVES)) {
+            open_node(w, w->mesh->nodes + child);
+            continue;
+        }
+        w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
+        w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+        return 1;
+    }
+    return 0;
+}
+
+// The next slot whose triangle meets the box, -1: no more
+static int32_t next_in_tree(fe__mesh_walk *w)
+{
+    fe__mesh_span span;
+    do {
+        while (w->slot < w->end) {
+            int32_t slot = w->slot++;
+            set_span(w->mesh, slot, &span);
+            if (meets(w, &span)) return slot;
+        }
+    } while (find_leaf(w));
+    return -1;
+}
+
+static int32_t next_of_near(fe__mesh_walk *w)
+{
+    while (w->slot < w->end) {
+        int32_t place = w->slot++;
+        if (meets(w, w->near->spans + place)) return w->near->slots[place];
+    }
+    return -1;
+}
+
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w) { return w->near ? next_of_near(w) : next_in_tree(w); }
+
+int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+{
+    int32_t slot = fe__mesh_walk_next_slot(w);
+    if (slot >= 0) fe__mesh_triangle(w->mesh, slot, w->origin, triangle);
+    return slot;
+}
+
+// Those of the walk's leaf that meet its box. Which do no branch can guess: each is written, and the next over it if it
+// does not count
+static void add_leaf(const fe__mesh_walk *w, fe__mesh_near *near)
+{
+    for (int32_t slot = w->slot; slot < w->end && near->count >= 0; ++slot) {
+        fe__mesh_span span;
+        set_span(w->mesh, slot, &span);
+        int32_t met = meets(w, &span);
+        if (near->count < FE__MESH_NEAR) {
+            near->spans[near->count] = span;
+            near->slots[near->count] = slot;
+            near->count += met;
+        } else if (met)
+            near->count = -1;
+    }
+}
+
+void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
+{
+    fe__mesh_walk walk;
+    near->box = *box, near->count = 0, near->is_all = 0, near->among = near->among_last = 0;
+    fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
+    while (near->count >= 0 && find_leaf(&walk)) add_leaf(&walk, near);
 }

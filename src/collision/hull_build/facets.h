@@ -7,8 +7,8 @@
 // face, so that this ends well for any points.
 #ifndef FE_COLLISION_HULL_BUILD_FACETS_H
 #define FE_COLLISION_HULL_BUILD_FACETS_H
-#include "collision/hull_build/surface.h"
-#include "core/array_sort.h"
+#include "collision/hull_build/hull_surface.h"
+#include "core/sort.h"
 
 // The loop of a facet turns left around its normal.
 typedef struct fe__facet {

@@ -11,8 +11,8 @@
 #define FE_W 4
 #include "collision/form/clip.h"
 #include "collision/manifold/facing_edges.h"
-#include "collision/manifold/hull_box.h"
-#include "collision/manifold/kernels.h"
+#include "collision/manifold/hull_hull.h"
+#include "collision/manifold/pair_kernels.h"
 
 #include "core/simd.h"
 

@@ -1,7 +1,7 @@
 // bridge.c - see bridge.h.
 #include "collision/manifold/bridge.h"
 
-#include "collision/form/support.h"
+#include "collision/form/form.h"
 
 #include <float.h>
 

@@ -1,11 +1,11 @@
 // collide.c - which kernel a pair of forms belongs to.
 //
-// A form without kernels of its own needs a support function and faces only (support.h): whatever the table leaves
+// A form without kernels of its own needs a support function and faces only (form.h): whatever the table leaves
 // empty goes the general convex way (convex.c).
 #include "collision/manifold/collide.h"
 
 #include "collision/form/hull.h"
-#include "collision/manifold/kernels.h"
+#include "collision/manifold/pair_kernels.h"
 
 #include <assert.h>
 #include <stddef.h>

@@ -1,13 +1,12 @@
 // convex.c - any two convex forms: the general path.
 //
 // Called by collide.c for pairs without a kernel, and by kernels for the cases they leave (a capsule whose core cuts a
-// box, boxes corner to rim). Knows forms by support points and faces only (support.h). The nearest points of the cores
+// box, boxes corner to rim). Knows forms by support points and faces only (form.h). The nearest points of the cores
 // (gjk.c), or the deepest (epa.c), give normal and separation; where a face lies along that normal it is cut with what
 // faces it (clip.c), else the one point is the contact.
-#include "collision/form/epa.h"
 #include "collision/form/gjk.h"
-#include "collision/manifold/kernels.h"
-#include "collision/form/support.h"
+#include "collision/manifold/pair_kernels.h"
+#include "collision/form/form.h"
 
 #include <assert.h>
 #include <float.h>

@@ -6,8 +6,8 @@
 // features meet in the next step: where they do, neither GJK nor EPA is needed.
 #include "collision/form/gjk.h"
 #include "collision/form/hull.h"
-#include "collision/form/support.h"
-#include "collision/manifold/kernels.h"
+#include "collision/form/form.h"
+#include "collision/manifold/pair_kernels.h"
 
 // ---- names ---------------------------------------------------------------------------------------------------------
 // The kind, whose feature it is, against its own direction or along it, and the feature: an axis of a box, a face of a

@@ -3,8 +3,8 @@
 // Called by convex.c with the faces of two forms that look at each other. All is reckoned in the plane of the disc,
 // onto which the other's vertices are brought along the reference's normal, so that the disc keeps being round.
 #include "collision/form/clip.h"
-#include "collision/form/support.h"
-#include "collision/manifold/kernels.h"
+#include "collision/form/form.h"
+#include "collision/manifold/pair_kernels.h"
 
 #include <float.h>
 

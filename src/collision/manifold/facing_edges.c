@@ -13,7 +13,7 @@
 #define FE_W 4
 #include "collision/manifold/facing_edges.h"
 
-#include "collision/manifold/kernels.h"
+#include "collision/manifold/pair_kernels.h"
 #include "core/simd.h"
 
 #include <math.h>

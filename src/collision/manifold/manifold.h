@@ -2,7 +2,7 @@
 #ifndef FE_COLLISION_MANIFOLD_MANIFOLD_H
 #define FE_COLLISION_MANIFOLD_MANIFOLD_H
 #include "collision/form/form.h"
-#include "collision/form/load.h"
+#include "collision/form/load_line.h"
 
 enum { FE_MAX_POINTS = 4 };
 

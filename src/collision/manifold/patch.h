@@ -3,7 +3,7 @@
 #ifndef FE_COLLISION_MANIFOLD_PATCH_H
 #define FE_COLLISION_MANIFOLD_PATCH_H
 #include "collision/form/ground.h"
-#include "collision/form/solid.h"
+#include "collision/form/flat.h"
 #include "collision/manifold/manifold.h"
 
 enum {

@@ -1,9 +1,9 @@
-// terrain.c - the triangles under a form, one by one; see terrain.h.
-#include "collision/manifold/terrain.h"
+// terrain.c - the triangles under a form, one by one; see collide.h.
+#include "collision/manifold/collide.h"
 
-#include "collision/form/hull_form.h"
-#include "collision/form/support.h"
-#include "collision/manifold/kernels.h"
+#include "collision/form/hull.h"
+#include "collision/form/form.h"
+#include "collision/manifold/pair_kernels.h"
 #include "collision/manifold/terrain_kernels.h"
 
 #include <float.h>

@@ -5,8 +5,8 @@
 // R(m) = sum_j half_j |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a
 // tie.
 #define FE_W 4
-#include "collision/manifold/kernels.h"
-#include "collision/form/support.h"
+#include "collision/manifold/pair_kernels.h"
+#include "collision/form/form.h"
 #include "collision/manifold/terrain_kernels.h"
 #include "core/simd.h"
 

@@ -1,8 +1,8 @@
 // terrain_course.c - see terrain_course.h.
 #include "collision/manifold/terrain_course.h"
 
-#include "collision/form/hull_form.h"
-#include "collision/manifold/kernels.h"
+#include "collision/form/hull.h"
+#include "collision/manifold/pair_kernels.h"
 
 static void span_of(const fe__form *b, const fe__mat3 *r, fe_vec3 at, fe_vec3 *low, fe_vec3 *high)
 {

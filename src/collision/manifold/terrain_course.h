@@ -7,7 +7,7 @@
 #define FE_COLLISION_MANIFOLD_TERRAIN_COURSE_H
 #include "collision/manifold/patch.h"
 
-// Where B goes past a ground that stands still, in the common frame (terrain.h). Its origin starts at 0.
+// Where B goes past a ground that stands still, in the common frame (collide.h). Its origin starts at 0.
 typedef struct fe__course {
     fe__mat3 rotation[2]; // at the start and at the end
     fe_vec3 end;          // where its origin ends

@@ -1,7 +1,7 @@
 // terrain_course.simd.c - axes that part a form's way from triangles (terrain_course.h), W triangles side by side: the
 // triangle's normal, those of its sides in its plane, from what of it is nearest to the form, and the normals of the
 // form's faces (Gottschalk, Lin, Manocha, 1996). Compiled once per SIMD set.
-#include "collision/form/hull_form.h"
+#include "collision/form/hull.h"
 #include "collision/manifold/terrain_course.h"
 #include "core/simd.h"
 

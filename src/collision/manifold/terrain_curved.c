@@ -5,10 +5,10 @@
 // part over the side, where the surface allows it. A form whose lowest point lies well inside the triangle is not
 // looked at so.
 #include "collision/form/clip.h"
-#include "collision/form/epa.h"
-#include "collision/form/hull_form.h"
-#include "collision/form/support.h"
-#include "collision/manifold/kernels.h"
+#include "collision/form/gjk.h"
+#include "collision/form/hull.h"
+#include "collision/form/form.h"
+#include "collision/manifold/pair_kernels.h"
 #include "collision/manifold/terrain_kernels.h"
 
 typedef struct contest {

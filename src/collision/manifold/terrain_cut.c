@@ -1,7 +1,7 @@
 // terrain_cut.c - a face of a body and a triangle of a heightfield, one cut by the other.
 #include "collision/form/clip.h"
-#include "collision/form/hull_form.h"
-#include "collision/form/support.h"
+#include "collision/form/hull.h"
+#include "collision/form/form.h"
 #include "collision/manifold/terrain_kernels.h"
 
 static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)

@@ -213,8 +213,8 @@ static void swap(fe__raw_patch *p, int32_t i, int32_t j)
     p->points[j] = here;
 }
 
-// The point beyond the first `chosen` that is farthest from all of them comes next: of what rocks over a ridge, where it
-// comes down first, were it tilted by `tilt`.
+// The point beyond the first `chosen` that is farthest from all of them comes next: of what rocks over a ridge, where
+// it comes down first, were it tilted by `tilt`.
 static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 {
     const float tilt = 0.05f;

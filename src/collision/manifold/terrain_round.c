@@ -2,7 +2,7 @@
 //
 // The core (a point, a segment) over the face gives points along the face's normal; near a convex side the nearest
 // points of core and side give one along the line between them, where the surface allows it.
-#include "collision/manifold/kernels.h"
+#include "collision/manifold/pair_kernels.h"
 #include "collision/manifold/terrain_kernels.h"
 
 enum { END_ID = 1, SIDE_ID = 4 };

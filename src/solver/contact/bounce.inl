@@ -1,4 +1,4 @@
-// bounce.inl - restitution. Part of rows.inl, once per number of points.
+// bounce.inl - restitution. Part of contact_rows.inl, once per number of points.
 //
 // Relax notes what touches in a substep (record_touch) and stops it. The bounce, after relax, gives the points the
 // speeds they leave with, and friction and rolling resistance what all impulses of the touch allow them, those that
@@ -183,8 +183,9 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     if (w_any(touched)) NAMED(bounce_lanes)(x, s, touched, 0, c, kind);
 }
 
-// ---- impacts of a chain, one by one: see pass_on.c ------------------------------------------------------------------
-// What the contact gave in this substep leaves the velocities of its bodies, or returns.
+// ---- impacts of a chain, one by one: see impact_chain.c
+// ------------------------------------------------------------------ What the contact gave in this substep leaves the
+// velocities of its bodies, or returns.
 FE_SMALL FE_INLINE void NAMED(take_back)(const SPECIAL_ROW *x, fe__solver *s, wide_mask lanes, float sign, int kind)
 {
     const ROW *row = &x->row;

@@ -1,10 +1,10 @@
-// follow.inl - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of rows.inl,
-// once per number of points.
+// follow.inl - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of
+// contact_rows.inl, once per number of points.
 //
 // Impulses keep the angular momentum of two bodies only while they act at one point of space, and their energy only
 // with the inertia of where the bodies are. So each substep, after the bodies moved, points and inertia are set anew,
 // in lanes whose bodies rotate or shift enough to show. Arms rotate within the step only, from those it began with, see
-// contact.h.
+// contact_solver.h.
 
 FE_INLINE arm NAMED(arm_of)(const ROW *row, wide3 r, wide3 span, wide3 direction, int kind)
 {

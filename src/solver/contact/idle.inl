@@ -1,4 +1,4 @@
-// idle.inl - rows of contacts that carry nothing. Part of rows.inl, once per number of points.
+// idle.inl - rows of contacts that carry nothing. Part of contact_rows.inl, once per number of points.
 //
 // A third of a pile's contacts, and nine tenths of a loose stack's, are gaps that nobody closes. Such a contact has no
 // impulse, and its gap stays open for a substep at the speeds of its bodies:

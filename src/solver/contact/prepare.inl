@@ -1,5 +1,5 @@
-// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of rows.inl, once per
-// number of points.
+// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of contact_rows.inl, once
+// per number of points.
 //
 // Contacts come from the whole of memory, in the order of the colours: those of the next row are fetched while this one
 // is computed.
@@ -129,8 +129,8 @@ FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
     NAMED(note_gaps)(row);
 }
 
-// The inverse mass with which a body counts for the softness: of what a tree lends (tree/lend.inl) the part that
-// lock_bits say
+// The inverse mass with which a body counts for the softness: of what a tree lends (tree/articulated_mass.inl) the part
+// that lock_bits say
 FE_INLINE wide NAMED(soft_mass)(const side *b)
 {
     wide part = w_fraction(b->locks);

@@ -70,7 +70,8 @@ typedef struct {
 } sides;
 
 // How far the pair may come together in a step, m. Along a normal n between the two, v.n and the turns count: those of
-// a body without points by |w x n| arm, others as in narrow.c, by speed = |v| + |w| reach. Without a normal all does
+// a body without points by |w x n| arm, others as in narrowphase.c, by speed = |v| + |w| reach. Without a normal all
+// does
 FE_INLINE wide approach_of(const sides *s, wide3 n, wide_mask has_normal, wide_mask apart, wide4 surface, float dt)
 {
     wide4 va, wa, vb, wb;
@@ -145,7 +146,7 @@ FE_INLINE void put_lanes(float *out, wide values, int32_t count)
     for (int i = 0; i < count; ++i) out[i] = lanes[i];
 }
 
-// As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
+// As in contact_rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
 static void recycle_block(const fe__contact *contacts, fe__points *points, const fe__body *bodies, const int32_t *index,
                           int32_t count, float dt, float fall, uint8_t *out, float *out_slack)
 {
@@ -182,7 +183,7 @@ static void recycle_block(const fe__contact *contacts, fe__points *points, const
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
 
     // Without points the bodies must not be able to meet in this step either. Where a wide gap may close in it, the
-    // manifold is to be that of the touch (narrow.c)
+    // manifold is to be that of the touch (narrowphase.c)
     wide zero = w_set(0.0f), least = least_separation(&separation, normal.w);
     wide_mask old = is_old(&m, n, surface.w), apart = w_not(w_greater(normal.w, zero)),
               open = w_and(w_greater(least, w_set(FE__TURNS_LITTLE)), w_greater(surface.w, zero));

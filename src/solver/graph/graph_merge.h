@@ -5,7 +5,7 @@
 // graph that it built; lanes, lines and trees are copied from there for the time of one solve.
 #ifndef FE_SOLVER_GRAPH_GRAPH_MERGE_H
 #define FE_SOLVER_GRAPH_GRAPH_MERGE_H
-#include "solver/graph/graph_build.h"
+#include "solver/graph/graph.h"
 
 enum {
     FE__MERGE_MOST = 16, // worlds: as many lanes as the widest rows have

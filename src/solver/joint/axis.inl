@@ -1,10 +1,11 @@
-// axis.inl - one degree of freedom x of a joint: limits, a drive to a position, a motor. Part of joint.simd.c.
+// axis.inl - one degree of freedom x of a joint: limits, a drive to a position, a motor. Part of joint_solver.simd.c.
 //
 // The parts differ in what x and its gradient are; u is a unit vector, d = anchor of B - anchor of A:
 //     X, Y, Z    x = u.d, u an axis of frame A        v = u.(vB + wB x rB - vA - wA x (rA + d))
 //     DISTANCE   x = |d|, u = d / |d|                 v = u.(vB + wB x rB - vA - wA x rA)
 //     TWIST, SWING_Y, SWING_Z, CONE                   v = g.(wB - wA)
-// With q as in joint.h, X and X' the twist axes of A and B, e the unit axis of the swing, y its angle, f = e x X:
+// With q as in joint_solver.h, X and X' the twist axes of A and B, e the unit axis of the swing, y its angle, f = e x
+// X:
 //     twist      g = (X + X') / (1 + X.X') = X + ((q.x q.y + q.z q.w) Y + (q.x q.z - q.y q.w) Z) / (q.x^2 + q.w^2)
 //     swing s    s' = (y e)' = e (e.w) + f (y cot y (f.w) - y (X.w)),   w = wB - wA
 //     cone       C = (1 - r) / |dr/ds|, r^2 = (s.y / a)^2 + (s.z / b)^2: the distance to the ellipse, inside positive;

@@ -1,4 +1,4 @@
-// lock_lanes.inl - how the trees reach a lane of the sweep's rows, see tree/lock.h. Part of joint.simd.c.
+// lock_lanes.inl - how the trees reach a lane of the sweep's rows, see tree/lock.h. Part of joint_solver.simd.c.
 
 // Other lanes of a row may be of trees that other workers solve meanwhile: of an impulse a lane is read and written
 // alone, not as (*a)[i], for which clang loads and stores all of them

@@ -1,4 +1,4 @@
-// point.inl - POINT: the anchors of two bodies stay together. Three rows, one block. Part of joint.simd.c.
+// point.inl - POINT: the anchors of two bodies stay together. Three rows, one block. Part of joint_solver.simd.c.
 //
 //     v = vB + wB x rB - vA - wA x rA,   K = (1/mA + 1/mB) 1 - [rA] IA^-1 [rA] - [rB] IB^-1 [rB]
 //     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)   (Catto, Soft Constraints,

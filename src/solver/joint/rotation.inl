@@ -1,5 +1,5 @@
 // rotation.inl - HINGE, FIXED: locks of rotations; ROTATION: drive to a rotation and friction about all axes. Part of
-// joint.simd.c.
+// joint_solver.simd.c.
 //
 //     HINGE   t1, t2: Y and Z of A; C = (-t2.X', t1.X') with X' of B;  v = (t1.w, t2.w), w = wB - wA;  2 x 2 block
 //     FIXED   C = 2 vec(QB QA^-1), world axes; v = w: dC/dt = w up to C^2. K = IA^-1 + IB^-1 in world axes

@@ -1,5 +1,5 @@
 // slide.inl - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of
-// joint.simd.c.
+// joint_solver.simd.c.
 //
 //     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + f)),   K_ij = u_i.K u_j
 // for locked i, j; f: d along the free axes

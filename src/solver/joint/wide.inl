@@ -1,4 +1,4 @@
-// wide.inl - what rows of joints share: bodies in and out, records in and out, softness. Part of joint.simd.c.
+// wide.inl - what rows of joints share: bodies in and out, records in and out, softness. Part of joint_solver.simd.c.
 //
 // Arms and axes rotate with their bodies in every substep (frozen ones gain energy: a chain explodes). All that follows
 // from positions is found once per substep, in relax, and serves the next solve too, which reads no motion.

@@ -1,4 +1,4 @@
-// damping.inl - light links under great tension. Part of tree.simd.c.
+// damping.inl - light links under great tension. Part of tree_solver.simd.c.
 //
 // A force f that pulls at an arm r holds a body like a spring of k = r.f about its centre (geometric stiffness:
 // Tournier et al., "Stable Constrained Dynamics", SIGGRAPH 2015). A light link under a heavy load swings on it at

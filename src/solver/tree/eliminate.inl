@@ -1,5 +1,5 @@
 // eliminate.inl - freedoms eliminated from the leaves upwards and met from the root downwards, see node.inl. Part of
-// tree.simd.c.
+// tree_solver.simd.c.
 
 // ---- masses ---------------------------------------------------------------------------------------------------------
 // of a body alone, at a point on the arm r from its centre: [[m, m [r]], [-m [r], I - m [r][r]]]

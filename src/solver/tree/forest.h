@@ -2,10 +2,10 @@
 //
 // A sweep passes an impulse on from joint to joint: a load of a thousand links' mass at the end of a chain takes a
 // thousand sweeps to be felt at its top, and until then the chain stretches. Where joints close no loop, all of them
-// can be met at once, in time that grows with their number alone (tree.h). A tree is a set of dynamic bodies, the
-// joints between them, and at most one joint to the rest of the world, whose bodies all count as one.
+// can be met at once, in time that grows with their number alone (tree_solver.h). A tree is a set of dynamic bodies,
+// the joints between them, and at most one joint to the rest of the world, whose bodies all count as one.
 //
-// The world finds the trees (world/forest.c); the graph gives lines and rows to those that are awake.
+// The world finds the trees (world/joint_tree.c); the graph gives lines and rows to those that are awake.
 #ifndef FE_SOLVER_TREE_FOREST_H
 #define FE_SOLVER_TREE_FOREST_H
 #include <stdint.h>

@@ -1,4 +1,4 @@
-// node.inl - a link of the trees that are solved side by side. Part of tree.simd.c.
+// node.inl - a link of the trees that are solved side by side. Part of tree_solver.simd.c.
 //
 // A joint lets the body below move against the one above along some axes and about some: its freedoms s. All that is
 // said of a body is said at the point c of the joint above it, in world axes: velocities (v of c, w), forces (f, torque
@@ -89,7 +89,7 @@ typedef struct tree_node {
     half seen[6];             // what contacts see of its rotations, xx xy xz yy yz zz, for as long as the step lasts
     real_sym resists;         // the inverse of that
     six x;                    // of the powers
-    real3 place;              // of the centre, m: see whirl.inl
+    real3 place;              // of the centre, m: see angular_speed_limit.inl
     lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 

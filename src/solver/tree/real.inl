@@ -1,4 +1,4 @@
-// real.inl - trees side by side: a lane each, in doubles. Part of tree.simd.c.
+// real.inl - trees side by side: a lane each, in doubles. Part of tree_solver.simd.c.
 //
 // A chain may bear a million times its own mass, so its matrices need doubles: half as many lanes as there are floats.
 // What core/simd.h says of lanes holds here: each operation is IEEE and acts on each lane alone, and min and max are

@@ -1,4 +1,5 @@
-// response.inl - what the links of a tree make of forces on them: the masses that contacts push. Part of tree.simd.c.
+// response.inl - what the links of a tree make of forces on them: the masses that contacts push. Part of
+// tree_solver.simd.c.
 //
 // A contact of a link pushes the whole tree. With G the response of the tree's velocities v to impulses on the links
 // that contacts touch, impulses l that were found with inverse masses D instead give the energy

@@ -1,5 +1,5 @@
 // warm_start.inl - impulses to the rows of the locks and back; heavy trees that turn fast begin a substep without those
-// of the last. Part of tree.simd.c.
+// of the last. Part of tree_solver.simd.c.
 //
 // A warm start guesses that a lock pulls as it did. Where it turns by much within a substep that is wrong, and after an
 // impact by far: relax turns J^T l with the arms, so that a light link on a long arm begins with velocities of the

@@ -1,5 +1,5 @@
 // recording.js - the bytes of a recording, as they come: whole chunks out of pieces of any size, deflated ones
-// unpacked, keyframes and the time step found on the way. The bytes are told in src/record/format.h.
+// unpacked, keyframes and the time step found on the way. The bytes are told in src/recording/recorder.h.
 import { chunkSum } from './sum.js';
 
 const HEADER = 40, CHUNK = 32, DEFLATED = 1, MAGIC = [0x46, 0x45, 0x41, 0x52, 0x45, 0x43, 0x4f, 0x1a];

@@ -1,4 +1,4 @@
-// sum.js - the sum in a chunk's header, for chunks that were unpacked here: src/core/hash.h, src/state/sum.c.
+// sum.js - the sum in a chunk's header, for chunks that were unpacked here: src/core/bytes.h, src/snapshot/format.c.
 const FACTOR = 0x9e3779b97f4a7c15n, ALL = (1n << 64n) - 1n, LANES = 8;
 
 function stirred(words) {
