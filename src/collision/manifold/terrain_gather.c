@@ -6,6 +6,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 // ---- gaps ----------------------------------------------------------------------------------------------------------
 static int32_t ends_at_a_side(const fe__ground *s, int32_t index)
@@ -232,20 +233,55 @@ static void choose_farthest(fe__raw_patch *p, int32_t chosen)
     swap(p, chosen, best);
 }
 
+static int32_t farthest_from_first(const fe__raw_patch *p, int32_t count)
+{
+    int32_t farthest = 0;
+    float most = 0.0f;
+    for (int32_t i = 1; i < count; ++i) {
+        fe_vec3 away = fe__sub(p->points[i].point, p->points[0].point);
+        if (fe__dot(away, away) > most) most = fe__dot(away, away), farthest = i;
+    }
+    return farthest;
+}
+
+// Of the first `count` points all may lie on a line, the crest of a ridge: its two ends come first, and what lies
+// between them is dropped, so that there is room for a point on either side. Returns how many of them are left.
+static int32_t leave_crest(fe__raw_patch *p, int32_t count)
+{
+    const float narrow = 0.02f; // width of a line by its length
+    if (count < 3) return count;
+    swap(p, 0, farthest_from_first(p, count));
+    swap(p, 1, farthest_from_first(p, count));
+    fe_vec3 line = fe__sub(p->points[1].point, p->points[0].point);
+    float square = fe__dot(line, line), widest = 0.0f;
+    for (int32_t i = 2; i < count; ++i) {
+        fe_vec3 across = fe__cross(line, fe__sub(p->points[i].point, p->points[0].point));
+        widest = fe__maxf(widest, fe__dot(across, across));
+    }
+    if (widest > narrow * narrow * square * square) return count;
+    memmove(p->points + 2, p->points + count, sizeof *p->points * (size_t)(p->count - count));
+    p->count -= count - 2;
+    return 2;
+}
+
 // At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest
 // four of all would leave out what carries.
 void fe__reduce_patch(fe__gathering *g, fe__raw_patch *p, int32_t is_aimed)
 {
+    const float touches = 0.1f * FE__CLEAR;
     if (p->count <= FE_MAX_POINTS) return;
     int32_t near = 0;
     for (int32_t i = 0; i < p->count; ++i)
-        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + FE__CLEAR) swap(p, i, near++);
-    if (near >= FE_MAX_POINTS) {
-        p->count = leave_four(g, p, near, is_aimed);
-        return;
+        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touches) swap(p, i, near++);
+    near = leave_crest(p, near);
+    if (near > FE_MAX_POINTS) {
+        int32_t left = leave_four(g, p, near, is_aimed), others = p->count - near;
+        memmove(p->points + left, p->points + near, sizeof *p->points * (size_t)others);
+        near = left, p->count = left + others;
     }
-    for (; near < FE_MAX_POINTS; ++near) choose_farthest(p, near);
-    p->count = FE_MAX_POINTS;
+    int32_t most = fe__mini(p->count, FE_MAX_POINTS);
+    for (; near < most; ++near) choose_farthest(p, near);
+    p->count = most;
 }
 
 void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie)
