@@ -47,5 +47,5 @@ static double what_lies_across_a_ridge_rests(dice *d, char *told)
 
 int main(int argc, char **argv)
 {
-    return law_main(argc, argv, (law[]){{LAW(what_lies_across_a_ridge_rests), 300}}, 1);
+    return law_main(argc, argv, (law[]){{LAW(what_lies_across_a_ridge_rests), 200}}, 1);
 }

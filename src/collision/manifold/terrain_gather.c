@@ -264,16 +264,23 @@ static int32_t leave_crest(fe__raw_patch *p, int32_t count)
     return 2;
 }
 
-// At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest
-// four of all would leave out what carries.
+// Brings those that are that near to the front, behind the first `near`: returns how many there are
+static int32_t bring_near(fe__raw_patch *p, int32_t near, float separation)
+{
+    for (int32_t i = near; i < p->count; ++i)
+        if (p->points[i].separation <= separation) swap(p, i, near++);
+    return near;
+}
+
+// At most four points. What stands on a crest, and on nothing else, keeps the two ends of it, and what it comes down on
+// where it rocks. Of others those near the surface span the patch, and what stands off comes after them: on uneven
+// ground the widest four of all would leave out what carries.
 void fe__reduce_patch(fe__gathering *g, fe__raw_patch *p, int32_t is_aimed)
 {
     const float touches = 0.1f * FE__CLEAR;
     if (p->count <= FE_MAX_POINTS) return;
-    int32_t near = 0;
-    for (int32_t i = 0; i < p->count; ++i)
-        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touches) swap(p, i, near++);
-    near = leave_crest(p, near);
+    int32_t near = leave_crest(p, bring_near(p, 0, fe__maxf(p->deepest + touches, -touches)));
+    if (near > 2) near = bring_near(p, near, fe__maxf(p->deepest, 0.0f) + FE__CLEAR);
     if (near > FE_MAX_POINTS) {
         int32_t left = leave_four(g, p, near, is_aimed), others = p->count - near;
         memmove(p->points + left, p->points + near, sizeof *p->points * (size_t)others);
