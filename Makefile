@@ -12,7 +12,7 @@
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets and
 #                   STATE_SECONDS=120 of broken snapshots, with clang's libFuzzer and sanitizers
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
-#   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
+#   make proof      docs/dev/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
 #   make viewer     build/viewer.html, a page that plays recordings; make test-viewer: its tests
 #   make gallery    pictures of scenes, docs/images/*.png, and the page that shows them, docs/gallery.html
@@ -295,7 +295,7 @@ bench-build: $(BUILD)/feather-bench
 bench: bench-build
 	$(BUILD)/feather-bench scenes --variants 32
 	$(BUILD)/feather-bench speed
-# docs/PROOF.md anew, from every case and speed scene in every engine
+# docs/dev/PROOF.md anew, from every case and speed scene in every engine
 proof:
 	@tools/deps.sh all
 	@+$(MAKE) --no-print-directory $(PARALLEL) bench-build

@@ -1,4 +1,4 @@
-// test_nets.c - nets of joints that open wide with few substeps: stretched islands, see docs/ARCHITECTURE.md, Solver.
+// test_nets.c - nets of joints that open wide with few substeps: stretched islands, see docs/dev/ARCHITECTURE.md, Solver.
 #include "scenes/joint_scene.h"
 
 #include <string.h>
