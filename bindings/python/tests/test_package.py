@@ -56,6 +56,10 @@ def test_what_the_documentation_shows_runs(tmp_path: Path) -> None:
         run([sys.executable, "-c", block], tmp_path, dict(os.environ))
 
 
+def test_the_program_of_readme_prints_what_it_says(tmp_path: Path) -> None:
+    run([ROOT / "tests/consumers/readme", BUILD, "python"], tmp_path, dict(os.environ))
+
+
 def test_the_table_of_the_documentation_has_every_function() -> None:
     from conftest import header_functions
 
