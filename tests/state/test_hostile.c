@@ -407,7 +407,7 @@ static void what_is_left_out_is_one_of_four(void **state)
 {
     (void)state;
     static const int32_t numbers[] = {-1, FE_LEFT_REST + 1, 256, 256 + FE_LEFT_SOME, INT32_MIN};
-    fe_world *world = make_scene(&script_solids, 60);
+    fe_world *world = make_scene(&script_solids, 120);
     bytes whole = save_whole(world);
     const fe__field *field = fe__tables[FE__TABLE_TOUCHING].fields;
     while (strcmp(field->name, "left_out") != 0) ++field;

@@ -412,7 +412,7 @@ typedef struct lanes {
     wide x, y, z;
 } lanes;
 
-static inline wide load(const float *from)
+static inline wide wide_at(const float *from)
 {
     wide to;
     memcpy(&to, from, sizeof to);
@@ -420,7 +420,7 @@ static inline wide load(const float *from)
 }
 static inline lanes lanes_at(const fe__hull_lanes *from, int32_t i)
 {
-    return (lanes){load(from->x + i), load(from->y + i), load(from->z + i)};
+    return (lanes){wide_at(from->x + i), wide_at(from->y + i), wide_at(from->z + i)};
 }
 // as fe__dot
 static inline wide along(const lanes *a, fe_vec3 b) { return a->x * b.x + a->y * b.y + a->z * b.z; }
@@ -450,7 +450,7 @@ static uint32_t faces_near(const fe__hull *hull, int32_t i, fe_vec3 q, float lea
 {
     lanes normal = lanes_at(&hull->normals, i);
     int32_t rest = hull->face_count - i;
-    return w_bits(along(&normal, q) - load(hull->distances + i) >= least) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
+    return w_bits(along(&normal, q) - wide_at(hull->distances + i) >= least) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
 }
 
 static float size(fe_vec3 a) { return fe__absf(a.x) + fe__absf(a.y) + fe__absf(a.z); }
