@@ -87,7 +87,7 @@ typedef struct fe__foot {
     float u, v;
     int32_t from_origin;
     int32_t is_aimed; // The foot chooses the points wherever it is.
-    fe__choice last;  // Its ids are those of the vertices.
+    fe__choice last;  // The ids are those of the vertices.
 } fe__foot;
 
 // Any four points hold the foot up to FE__FOOT_MOST of the way from their middle to their edge. Beyond that the foot

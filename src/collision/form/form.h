@@ -105,16 +105,16 @@ struct fe__face; // below
 typedef struct fe__form_traits {
     const char *name;    // The sentences of errors say it.
     int32_t geometry;    // fe_geometry_type, -1: not public
-    uint8_t static_only; // The form has no mass and may be on static bodies alone,
-    uint8_t is_carried;  // or on kinematic ones too.
+    uint8_t static_only; // The form has no mass: only static bodies may have it.
+    uint8_t is_carried;  // Kinematic bodies may have it too.
     uint8_t is_ball;     // No rotation changes it, and it touches at one point.
     uint8_t flat_faces;  // It is a polyhedron given by its half widths, or a triangle.
-    uint8_t curved;      // Its core has a rim: cylinder, cone.
+    uint8_t curved;      // The core has a rim: cylinder, cone.
     uint8_t is_hull;     // An asset's hull holds its vertices and faces (hull.h).
     uint8_t unbounded;   // No box holds it, so that it is in no tree.
     uint8_t is_field;    // It is a surface of triangles (ground.h) and may touch in several manifolds.
     uint8_t has_asset;   // Shapes share its data by fe__form.field.
-    uint8_t has_scale;   // Its asset has a record for each scale.
+    uint8_t has_scale;   // The asset has a record for each scale.
     uint8_t of_parts;    // It stands for its parts, and is in no tree.
     fe__mass (*mass)(const fe__form *form, double density);
     fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
@@ -206,7 +206,7 @@ enum {
     FE__SHAPE_CENTRED = 2, // The local pose is the identity.
     FE__SHAPE_IN_TREE = 4,
     FE__SHAPE_IN_PLANES = 8, // Planes are in a list, not in a tree.
-    FE__SHAPE_MOVED = 16,    // Its box is new and in the list of such proxies: it looks for pairs in the next step.
+    FE__SHAPE_MOVED = 16,    // The box is new and in the list of such proxies: it looks for pairs in the next step.
     FE__SHAPE_JUDGED = 32,   // The pair filter judges its new pairs.
     FE__SHAPE_ONE_WAY = 64   // It holds back only bodies that come against one_way.
 };

@@ -20,7 +20,7 @@ enum { MAX_ITERATIONS = 64 }; // Boxes and segments need at most 12.
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
     fe_dvec3 on_a, q = {0.0, 0.0, 0.0};
-    if (cores->corners) { // Of equally far corners the first one counts.
+    if (cores->corners) { // The first of equally far corners counts.
         double most = fe__ddot(cores->corners[0], direction);
         on_a = cores->corners[0];
         for (int32_t i = 1; i < 3; ++i) {
