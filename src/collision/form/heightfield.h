@@ -15,7 +15,7 @@
 #include "collision/form/form.h"
 
 enum {
-    FE__CELL_HOLE = 255,                // A cell with this number is a hole, with another it has that material.
+    FE__CELL_HOLE = 255,                // A cell with this number is a hole; other numbers name a material.
     FE__FIELD_LINES = 32768,            // A field has at most so many rows, and so many columns.
     FE__FIELD_SAMPLES = 1 << 28,        // A field has at most so many samples.
     FE__FIELD_MATERIALS = FE__CELL_HOLE // A field has at most so many materials.

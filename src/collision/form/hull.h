@@ -30,8 +30,8 @@
 
 enum {
     FE__HULL_VERTICES = 255,                    // A hull has at most so many vertices.
-    FE__HULL_FACES = 2 * FE__HULL_VERTICES - 4, // It has at most so many faces, all triangles.
-    FE__HULL_EDGES = 3 * FE__HULL_VERTICES - 6, // It has then so many edges.
+    FE__HULL_FACES = 2 * FE__HULL_VERTICES - 4, // Euler's formula bounds the faces by this number.
+    FE__HULL_EDGES = 3 * FE__HULL_VERTICES - 6, // Euler's formula bounds the edges by this number.
     FE__HULL_CORNERS = 2 * FE__HULL_EDGES,      // Each half-edge is a corner of one face.
     FE__HULL_DIRECTIONS = 32,                   // Hulls with more are not worth asking direction by direction.
     FE__HULL_LANES = 16                         // The widest SIMD set has so many lanes.
