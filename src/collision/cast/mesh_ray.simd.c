@@ -1,4 +1,4 @@
-// mesh_ray.simd.c - rays and moving boxes against a mesh; see mesh_ray.h. The comment below tells the method.
+// mesh_ray.simd.c - rays and moving boxes against a mesh; see mesh_ray.h.
 #include "collision/cast/mesh_ray.h"
 
 #include "core/fours.h"

@@ -165,7 +165,7 @@ typedef struct fe__mesh_near {
     int32_t is_all;      // All triangles that the form may touch are here.
     uint64_t among;      // bit i: it may touch triangle i on its way
     uint64_t among_last; // bit i: it may touch triangle i at the end of its way
-    float margin;        // The form touches what it comes nearer to than this, m.
+    float margin;        // The form may touch triangles that it comes nearer to than this, m.
     int32_t slots[FE__MESH_NEAR];
     fe__mesh_span spans[FE__MESH_NEAR];
 } fe__mesh_near;
