@@ -272,7 +272,7 @@ int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, doub
         sweep_pieces(&s, t, end, hit);
     }
     if (hit->triangle < 0) return 0;
-    if (hit->inside) fe__field_way_out(&s, hit);
+    if (hit->inside) fe__field_depenetrate(&s, hit);
     return 1;
 }
 
@@ -410,7 +410,7 @@ static void try_translation(trial *t, fe_dvec3 x)
     if (length > 0.0) try_way(t, fe__dscale(1.0 / length, x), length);
 }
 
-void fe__field_way_out(const fe__field_search *search, fe__sweep_hit *hit)
+void fe__field_depenetrate(const fe__field_search *search, fe__sweep_hit *hit)
 {
     fe__field_search s = *search;
     overlaps all = {0};

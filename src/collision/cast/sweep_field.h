@@ -25,6 +25,6 @@ int32_t fe__field_is_met(const fe__field_search *search, int32_t triangle, const
 
 // Depenetration of a mover that overlaps the surface; `hit` holds the deepest triangle. Finds a shorter way out, or one
 // that parts the two if that triangle's normal does not.
-void fe__field_way_out(const fe__field_search *search, fe__sweep_hit *hit);
+void fe__field_depenetrate(const fe__field_search *search, fe__sweep_hit *hit);
 
 #endif
