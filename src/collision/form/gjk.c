@@ -240,6 +240,7 @@ static void approach_origin(const fe__cores *cores, double limit, double share, 
         double bound = along / sqrt(square);
         if (bound > g->apart_by) g->apart_by = bound, g->across = v;
         int32_t is_apart = along > share * square && along * along > limit * limit * square, is_known = 0;
+        if (is_apart || square - along <= CONVERGED * square) break;
         simplex last;
         last.count = g->count;
         for (int32_t i = 0; i < g->count; ++i) {
@@ -247,7 +248,7 @@ static void approach_origin(const fe__cores *cores, double limit, double share, 
             is_known |= fe__ddot(d, d) == 0.0;
             last.vertex[i] = g->vertex[i], last.weight[i] = weight[i];
         }
-        if (is_apart || square - along <= CONVERGED * square || is_known) break;
+        if (is_known) break;
         if (!add_vertex(g, &w, weight)) {
             g->overlap = !(curved && g->apart_by > near);
             if (!g->overlap) take_back(&last, g, weight);
