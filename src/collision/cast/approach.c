@@ -1,74 +1,67 @@
-// approach.c - nearest points of two cores: closed forms in double, in the frame of one of them.
+// approach.c - nearest points and sweeps of two cores, in double, in the frame of one of them; see approach.h.
 //
-// Input: the sweeps' pairs (sweep.c). Segments: Ericson, Real-Time Collision Detection, 5.1.9. Segment and box: the
-// squared distance from a box along a line is convex and made of parabolas that meet where a coordinate crosses a side;
-// bracket the zero of its slope between these.
+// Points, segments, boxes and triangles have closed forms. Hulls and forms with a rim are known by their support
+// functions alone: GJK finds their distance and EPA their depth.
 #include "collision/cast/approach.h"
 
 #include "collision/form/gjk.h"
 
 #include <string.h>
 
-// ---- approach -------------------------------------------------------------------------------------------------------
-
+// ---- boxes and segments ---------------------------------------------------------------------------------------------
 static double clamp(double x, double half) { return fe__mind(fe__maxd(x, -half), half); }
 static double excess(double x, double half) { return x > half ? x - half : x < -half ? x + half : 0.0; }
 
 // Below this squared sine two segments are parallel to the last digit.
 #define PARALLEL 1e-30
 
-// Where on the segment  p + u a, |u| <= h,  a (unit) and p in the frame, it is nearest to the frame's segment  v y, |v|
-// <= k:
+// The u at which the segment  p + u a, |u| <= h,  a (unit) and p in the frame, is nearest to the frame's segment  v y,
+// |v| <= k  (Ericson, Real-Time Collision Detection, 2005, 5.1.9):
 //   d/du: u + a.p - v a.y = 0,   d/dv: v = p.y + u a.y
 static double nearest_on_segments(const fe__approach *s, fe_dvec3 p)
 {
     fe_dvec3 a = s->axes.y;
-    double half = s->other_half[1], along = fe__ddot(a, p), square = a.x * a.x + a.z * a.z; // of the sine between them
+    double half = s->other_half[1], along = fe__ddot(a, p), square = a.x * a.x + a.z * a.z; // squared sine of the two
     double u = square > PARALLEL ? clamp((a.y * p.y - along) / square, half) : 0.0;
     double v = clamp(p.y + u * a.y, s->frame_half[1]);
     return clamp(v * a.y - along, half);
 }
 
+// The line  centre + u way  and a box about the origin.
 typedef struct line {
-    double centre[3], reach[3]; // c + u e
-    const double *half;         // of the box
+    double centre[3], way[3];
+    const double *half; // half widths of the box
 } line;
 
-// half the slope of the squared distance
+// Half the slope of the line's squared distance from the box at u.
 static double slope(const line *l, double u)
 {
     double sum = 0.0;
-    for (int32_t k = 0; k < 3; ++k) sum += l->reach[k] * excess(l->centre[k] + u * l->reach[k], l->half[k]);
+    for (int32_t k = 0; k < 3; ++k) sum += l->way[k] * excess(l->centre[k] + u * l->way[k], l->half[k]);
     return sum;
 }
 
+// The u, |u| <= half, at which the line is nearest to the box. The squared distance is convex and made of parabolas
+// that meet where a coordinate crosses a side: the zero of its slope is bracketed between these.
 static double nearest_on_line(const line *l, double half)
 {
     double low = -half, high = half, at_low = slope(l, low), at_high = slope(l, high);
     if (at_low >= 0.0) return low;
     if (at_high <= 0.0) return high;
     for (int32_t k = 0; k < 3; ++k) {
-        if (l->reach[k] == 0.0) continue;
+        if (l->way[k] == 0.0) continue;
         for (int32_t side = 0; side < 2; ++side) {
-            double u = ((side ? l->half[k] : -l->half[k]) - l->centre[k]) / l->reach[k];
+            double u = ((side ? l->half[k] : -l->half[k]) - l->centre[k]) / l->way[k];
             if (!(u > low && u < high)) continue;
-            double at = slope(l, u);
-            if (at == 0.0) return u;
-            if (at < 0.0)
-                low = u, at_low = at;
+            double at_u = slope(l, u);
+            if (at_u == 0.0) return u;
+            if (at_u < 0.0)
+                low = u, at_low = at_u;
             else
-                high = u, at_high = at;
+                high = u, at_high = at_u;
         }
     }
     return low - at_low * ((high - low) / (at_high - at_low));
-}
-
-static double nearest_on_other(const fe__approach *s, fe_dvec3 p)
-{
-    if (s->other_kind == FE_CORE_POINT) return 0.0;
-    if (s->frame_kind == FE_CORE_SEGMENT) return nearest_on_segments(s, p);
-    line l = {{p.x, p.y, p.z}, {s->axes.y.x, s->axes.y.y, s->axes.y.z}, s->frame_half};
-    return nearest_on_line(&l, s->other_half[1]);
 }
 
 void fe__core_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
@@ -77,7 +70,13 @@ void fe__core_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap
         fe__triangle_gap_of(s, position, gap);
         return;
     }
-    double u = nearest_on_other(s, position);
+    double u = 0.0;
+    if (s->other_kind != FE_CORE_POINT && s->frame_kind == FE_CORE_SEGMENT) {
+        u = nearest_on_segments(s, position);
+    } else if (s->other_kind != FE_CORE_POINT) {
+        line l = {{position.x, position.y, position.z}, {s->axes.y.x, s->axes.y.y, s->axes.y.z}, s->frame_half};
+        u = nearest_on_line(&l, s->other_half[1]);
+    }
     fe_dvec3 q = fe__dadd(position, fe__dscale(u, s->axes.y));
     gap->on_frame =
         (fe_dvec3){clamp(q.x, s->frame_half[0]), clamp(q.y, s->frame_half[1]), clamp(q.z, s->frame_half[2])};
@@ -98,32 +97,25 @@ fe__axes fe__axes_of(fe_quat q)
     };
 }
 
-// ---- approach triangle ----------------------------------------------------------------------------------------------
-// Nearest points of a triangle and a point or a segment, in double.
-//
-// Input: the triangles of heightfields near a moving form (sweep_field.c). A segment that does not pierce the triangle
-// is nearest to it at one of its ends or at one of the triangle's sides.
-
-// Below this squared sine two segments are parallel to the last digit.
-
+// ---- a triangle and a point or a segment ----------------------------------------------------------------------------
 void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u,
                              double *w)
 {
     fe_dvec3 r = fe__dsub(p, q), cross = fe__dcross(a, b);
     double cosine = fe__ddot(a, b), along_a = fe__ddot(a, r), along_b = fe__ddot(b, r), square = fe__ddot(cross, cross);
-    double at = square > PARALLEL ? (cosine * along_b - along_a) / square : 0.0;
-    at = fe__mind(fe__maxd(at, -half), half);
-    *w = fe__mind(fe__maxd(along_b + at * cosine, 0.0), length);
+    double on_a = square > PARALLEL ? (cosine * along_b - along_a) / square : 0.0;
+    on_a = fe__mind(fe__maxd(on_a, -half), half);
+    *w = fe__mind(fe__maxd(along_b + on_a * cosine, 0.0), length);
     *u = fe__mind(fe__maxd(*w * cosine - along_a, -half), half);
 }
 
-// Left of a side, seen from where the normal points; `from`: from the side's start to the point
+// Is the point on the left of a side, seen from the tip of the normal? `from` leads from the side's start to the point.
 static inline int32_t is_left(fe_dvec3 n, fe_dvec3 side, fe_dvec3 from)
 {
     return !(fe__ddot(fe__dcross(n, side), from) < 0.0);
 }
 
-// Left of all sides
+// Is the point on the left of all sides?
 static int32_t is_over(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p)
 {
     return is_left(n, fe__dsub(v[1], v[0]), fe__dsub(p, v[0])) && is_left(n, fe__dsub(v[2], v[1]), fe__dsub(p, v[1])) &&
@@ -132,7 +124,7 @@ static int32_t is_over(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p)
 
 typedef struct nearest {
     fe_dvec3 point;
-    double square; // of the distance
+    double square; // squared distance
 } nearest;
 
 static inline void ask_side(fe_dvec3 start, fe_dvec3 side, fe_dvec3 from, fe_dvec3 p, nearest *best)
@@ -162,11 +154,17 @@ static void keep_nearer(fe__core_gap *gap, fe_dvec3 on_triangle, fe_dvec3 on_oth
     if (distance < gap->distance) *gap = (fe__core_gap){.distance = distance, .on_frame = on_triangle, .away = away};
 }
 
-// The ends where they are over the triangle, the piercing point, the three sides.
-static void segment_gap(const fe__approach *s, fe_dvec3 p, fe__core_gap *gap)
+// A segment that does not pierce the triangle is nearest to it at one of its ends or at one of the triangle's sides.
+void fe__triangle_gap_of(const fe__approach *s, fe_dvec3 p, fe__core_gap *gap)
 {
     const fe_dvec3 *v = s->vertex;
     fe_dvec3 n = s->normal, a = s->axes.y;
+    if (s->other_kind != FE_CORE_SEGMENT) {
+        gap->on_frame = fe__nearest_on_triangle(v, n, p);
+        gap->away = fe__dsub(p, gap->on_frame);
+        gap->distance = sqrt(fe__ddot(gap->away, gap->away));
+        return;
+    }
     double half = s->other_half[1], height = fe__ddot(n, fe__dsub(p, v[0])), slope = fe__ddot(n, a);
     if (fe__absd(height) <= half * fe__absd(slope) && slope != 0.0) {
         fe_dvec3 q = fe__dsub(p, fe__dscale(height / slope, a));
@@ -189,28 +187,12 @@ static void segment_gap(const fe__approach *s, fe_dvec3 p, fe__core_gap *gap)
     }
 }
 
-void fe__triangle_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
-{
-    if (s->other_kind == FE_CORE_SEGMENT) {
-        segment_gap(s, position, gap);
-        return;
-    }
-    gap->on_frame = fe__nearest_on_triangle(s->vertex, s->normal, position);
-    gap->away = fe__dsub(position, gap->on_frame);
-    gap->distance = sqrt(fe__ddot(gap->away, gap->away));
-}
+// ---- curved cores: distances ----------------------------------------------------------------------------------------
+// The nearest points are known to this share of the cores' size.
+#define ROUNDINGS 1e-14
+#define NEARLY_ALONG 0.9999 // cosine of a degree
 
-// ---- approach curved ------------------------------------------------------------------------------------------------
-// Sweeps and overlaps of what its support function alone describes, a cylinder, a cone or a hull,
-// with anything that has a core.
-//
-// Nearest points by GJK and depths by EPA, in the frame of the approach. As for the other forms the distance is a
-// convex function of the way, and its tangent never goes too far.
-
-enum { MAX_STEPS = 64 };
-#define TOLERANCE 0.1       // of the gap: a stop within that of it is one
-#define ROUNDINGS 1e-14     // of the cores' size: how well the nearest points are known
-#define NEARLY_ALONG 0.9999 // a direction within a degree
+static const fe__axes frame_axes = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
 
 static fe__cores cores_at(const fe__approach *s, fe_dvec3 position)
 {
@@ -241,21 +223,21 @@ void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *g
     gap_of(&cores, gap);
 }
 
-// ---- planes that hold the two apart ---------------------------------------------------------------------------------
-// The cores are no nearer than the planes across `n` (unit, from the frame to the other) that hold them: what is sure
-// of a distance, whatever rounding made of the nearest points of a large form.
+// The cores are no nearer to each other than the planes across `n` (unit, from the frame to the other) that hold them.
+// This is sure, whatever rounding made of the nearest points of a large form.
 static double sure_distance(const fe__cores *cores, fe_dvec3 n)
 {
     return -fe__ddot(n, fe__cores_support(cores, n).difference);
 }
 
+// Takes the axis, or its opposite, if it looks more along n than the best so far.
 static void keep_nearest_axis(fe_dvec3 axis, fe_dvec3 n, fe_dvec3 *best)
 {
     double cosine = fe__ddot(axis, n);
     if (fe__absd(cosine) > fe__absd(fe__ddot(*best, n))) *best = cosine < 0.0 ? fe__dscale(-1.0, axis) : axis;
 }
 
-// Of the flat sides that are known without rounding the one that looks most along n: caps, and faces of boxes
+// Caps, and faces of boxes, are flat sides that are known without rounding. Takes the one that looks most along n.
 static void keep_nearest_side(int32_t type, const fe__axes *axes, fe_dvec3 n, fe_dvec3 *best)
 {
     if (type == FE__FORM_BOX) {
@@ -265,8 +247,8 @@ static void keep_nearest_side(int32_t type, const fe__axes *axes, fe_dvec3 n, fe
     if (type == FE__FORM_BOX || type == FE__FORM_CYLINDER || type == FE__FORM_CONE) keep_nearest_axis(axes->y, n, best);
 }
 
-// Where the cores only just touch, the polytope around their difference may have no face there: the flat sides are
-// asked too, both ways. The point is that which the one without the side has farthest along it.
+// If the cores only just touch, EPA's polytope may have no face at that place: the flat sides are asked too, both ways.
+// The point is the farthest along the side's normal on the form without the side.
 static void try_sides(int32_t type, const fe__axes *axes, int32_t is_of_frame, const fe__cores *cores,
                       fe__penetration *found)
 {
@@ -283,41 +265,33 @@ static void try_sides(int32_t type, const fe__axes *axes, int32_t is_of_frame, c
 
 double fe__curved_depth(const fe__approach *s, fe_dvec3 *way_out, fe__core_gap *gap)
 {
-    static const fe__axes own = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     fe__cores cores = cores_at(s, s->position);
     fe__gjk gjk;
     fe__gjk_distance_closely(&cores, &gjk);
     fe__penetration p = fe__epa_depth(&cores, &gjk);
-    if (s->frame_kind != FE_CORE_TRIANGLE) try_sides(s->frame_form->type, &own, 1, &cores, &p);
+    if (s->frame_kind != FE_CORE_TRIANGLE) try_sides(s->frame_form->type, &frame_axes, 1, &cores, &p);
     try_sides(s->other_form->type, &s->axes, 0, &cores, &p);
     *way_out = p.normal, gap->on_frame = p.on_a;
     return p.depth;
 }
 
-static fe_dvec3 nearest_side(const fe__approach *s, fe_dvec3 n)
-{
-    static const fe__axes own = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    fe_dvec3 best = {0.0, 0.0, 0.0};
-    if (s->frame_kind == FE_CORE_TRIANGLE)
-        keep_nearest_axis(s->normal, n, &best);
-    else
-        keep_nearest_side(s->frame_form->type, &own, n, &best);
-    keep_nearest_side(s->other_form->type, &s->axes, n, &best);
-    return best;
-}
-
 // A rounding e of the nearest points turns a way d between them by e / d, far more than it turns a side of one of the
-// two. So where a side near it holds them apart by more, it gives the direction; and it does where the nearest points
-// are none, because more than that turn takes of the size is between their distance and what is sure of it. Returns the
-// distance, then what is sure of it.
+// two. So if a side near to it holds the cores apart by more, the side gives the direction. It also does if the nearest
+// points are wrong: that is so if the distance exceeds its lower bound by more than such a turn takes of the size.
+// Returns the distance if it is sound, else its lower bound.
 static double make_sure(const fe__approach *s, const fe__cores *cores, fe__core_gap *gap)
 {
     double size = gap->size, least = gap->distance - ROUNDINGS * size * (size / gap->distance);
-    fe_dvec3 n = fe__dscale(1.0 / gap->distance, gap->away), side = nearest_side(s, n);
+    fe_dvec3 n = fe__dscale(1.0 / gap->distance, gap->away), side = {0.0, 0.0, 0.0};
+    if (s->frame_kind == FE_CORE_TRIANGLE)
+        keep_nearest_axis(s->normal, n, &side);
+    else
+        keep_nearest_side(s->frame_form->type, &frame_axes, n, &side);
+    keep_nearest_side(s->other_form->type, &s->axes, n, &side);
     int32_t is_along = fe__ddot(side, n) > NEARLY_ALONG;
-    if (!is_along && gap->apart_by >= least) return gap->distance; // GJK has met a plane that shows it
+    if (!is_along && gap->apart_by >= least) return gap->distance; // GJK has met a plane that shows the distance.
     double sure = sure_distance(cores, n);
-    if ((sure < least && fe__ddot(side, side) > 0.0) || is_along) { // two hulls have no side that is known
+    if ((sure < least && fe__ddot(side, side) > 0.0) || is_along) { // Two hulls have no side that is known.
         double by_side = sure_distance(cores, side);
         if (by_side > sure) sure = by_side, gap->away = fe__dscale(gap->distance, side);
     }
@@ -337,69 +311,68 @@ double fe__separation_of(const fe__approach *s, fe_dvec3 position, fe_dvec3 n)
     return sure_distance(&cores, n);
 }
 
+// ---- curved cores: sweeps -------------------------------------------------------------------------------------------
+// Conservative advancement. As for the other cores, the distance is a convex function of the way, and its tangent never
+// goes too far.
+enum { MAX_STEPS = 64 };
+// A stop is accepted if it misses the gap by no more than this share of it.
+#define TOLERANCE 0.1
+
 typedef struct sure_gap {
     fe__core_gap gap;
-    double sure; // of its distance
+    double sure; // lower bound of the distance
 } sure_gap;
 
-// A sweep's looks at the two, one after the other. Forms with corners alone, a hull among them, are looked at from what
-// was nearest before: mostly it still is. A rim's supports come so near to each other that the last ones say little.
-typedef struct looks {
+// The nearest points on the way of a sweep. Between forms with corners alone, a hull among them, each search begins
+// with the points that were nearest before: mostly they still are. A rim's supports come so near to each other that the
+// last ones say little.
+typedef struct gap_tracker {
     const fe__approach *pair;
-    int32_t follows, is_known;
-    fe_dvec3 position; // of the last look
+    int32_t has_corners; // The forms have corners alone.
+    int32_t is_known;    // `gjk` is the result at `position`.
+    fe_dvec3 position;
     fe__gjk gjk;
-} looks;
+} gap_tracker;
 
-static looks looks_of(const fe__approach *s)
+static gap_tracker track(const fe__approach *s)
 {
     int32_t has_rim =
         (s->frame_kind != FE_CORE_TRIANGLE && fe__form_is_curved(s->frame_form)) || fe__form_is_curved(s->other_form);
-    return (looks){.pair = s, .follows = !has_rim};
+    return (gap_tracker){.pair = s, .has_corners = !has_rim};
 }
 
-static sure_gap look_at(looks *l, double t)
+static sure_gap gap_at(gap_tracker *tracker, double t)
 {
-    fe_dvec3 position = fe__approach_at(l->pair, t);
-    fe__cores cores = cores_at(l->pair, position);
-    if (l->is_known)
-        fe__gjk_distance_closely_after(&cores, fe__dsub(position, l->position), &l->gjk);
+    fe_dvec3 position = fe__approach_at(tracker->pair, t);
+    fe__cores cores = cores_at(tracker->pair, position);
+    if (tracker->is_known)
+        fe__gjk_distance_closely_after(&cores, fe__dsub(position, tracker->position), &tracker->gjk);
     else
-        fe__gjk_distance_closely(&cores, &l->gjk);
-    l->is_known = l->follows, l->position = position;
-    sure_gap here = {.gap = gap_found(&l->gjk)};
-    here.sure = here.gap.distance > 0.0 ? make_sure(l->pair, &cores, &here.gap) : 0.0;
-    return here;
+        fe__gjk_distance_closely(&cores, &tracker->gjk);
+    tracker->is_known = tracker->has_corners, tracker->position = position;
+    sure_gap found = {.gap = gap_found(&tracker->gjk)};
+    found.sure = found.gap.distance > 0.0 ? make_sure(tracker->pair, &cores, &found.gap) : 0.0;
+    return found;
 }
 
-// What GJK found at the start is what it would find again, where position + 0 translation has the position's bits.
-static sure_gap look_at_start(looks *l, const fe__core_gap *known)
+// Goes from `t` to the place where the distance is `goal`, or a little more. 0: the cores never come so near. `gap` is
+// the gap at t, before and after. If GJK finds a distance too long, the step goes too far: then the way from the last
+// place where the cores were apart is halved.
+static int32_t advance(gap_tracker *tracker, double goal, double tolerance, double *t, sure_gap *gap)
 {
-    fe_dvec3 start = fe__approach_at(l->pair, 0.0);
-    if (memcmp(&start, &l->pair->position, sizeof start) != 0) return look_at(l, 0.0);
-    fe__cores cores = cores_at(l->pair, start);
-    sure_gap here = {.gap = *known};
-    here.sure = make_sure(l->pair, &cores, &here.gap);
-    return here;
-}
-
-// From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. A distance that GJK finds too
-// long takes a step too far: then the way from where they were apart is halved. `at` is the gap at t, before and after.
-static int32_t advance(looks *l, double goal, double tolerance, double *t, sure_gap *at)
-{
-    const fe__approach *s = l->pair;
+    const fe__approach *s = tracker->pair;
     double apart = *t, inside = (double)INFINITY;
-    sure_gap here = *at;
+    sure_gap here = *gap;
     for (int32_t i = 0;; ++i) {
-        if (i > 0) here = look_at(l, *t);
+        if (i > 0) here = gap_at(tracker, *t);
         if (i == 0 && !(here.gap.distance > 0.0)) return 1;
         if (i > 0 && !(here.gap.distance > s->radius)) {
             inside = *t;
         } else {
             double way = here.sure - goal;
-            *at = here;
-            double rate = fe__ddot(here.gap.away, s->translation) / here.gap.distance; // of the distance, m per t
-            if (!(rate < 0.0)) return inside <= 1.0;                                   // then they do meet
+            *gap = here;
+            double rate = fe__ddot(here.gap.away, s->translation) / here.gap.distance; // m per t
+            if (!(rate < 0.0)) return inside <= 1.0; // They do meet if a later place was inside.
             if (here.gap.distance <= goal + tolerance || !(way > 0.0)) return 1;
             apart = *t;
             *t += way / -rate;
@@ -413,26 +386,35 @@ static int32_t advance(looks *l, double goal, double tolerance, double *t, sure_
     }
 }
 
-static int32_t sweep_on(looks *l, double t, sure_gap *at, double limit, fe__approach_hit *hit)
+// The stop is a gap before the other form. It counts only if the cores come nearer still: by half of what is left.
+static int32_t sweep_on(gap_tracker *tracker, double t, sure_gap *gap, double limit, fe__approach_hit *hit)
 {
-    const fe__approach *s = l->pair;
-    if (!advance(l, s->radius + s->gap, TOLERANCE * s->gap, &t, at) || !(t <= limit)) return 0;
-    double distance = at->gap.distance, clearance = fe__mind(distance - s->radius, s->gap);
-    *hit = (fe__approach_hit){t, fe__dscale(1.0 / distance, at->gap.away), at->gap.on_frame};
-    return advance(l, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, at);
+    const fe__approach *s = tracker->pair;
+    if (!advance(tracker, s->radius + s->gap, TOLERANCE * s->gap, &t, gap) || !(t <= limit)) return 0;
+    double distance = gap->gap.distance, clearance = fe__mind(distance - s->radius, s->gap);
+    *hit = (fe__approach_hit){t, fe__dscale(1.0 / distance, gap->gap.away), gap->gap.on_frame};
+    return advance(tracker, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, gap);
 }
 
 int32_t fe__curved_sweep(const fe__approach *s, const fe__core_gap *start, double limit, fe__approach_hit *hit)
 {
-    looks l = looks_of(s);
-    sure_gap at = look_at_start(&l, start);
-    return sweep_on(&l, 0.0, &at, limit, hit);
+    gap_tracker tracker = track(s);
+    // GJK would find the same gap again if  position + 0 translation  has the position's bits.
+    fe_dvec3 position = fe__approach_at(s, 0.0);
+    if (memcmp(&position, &s->position, sizeof position) != 0) {
+        sure_gap gap = gap_at(&tracker, 0.0);
+        return sweep_on(&tracker, 0.0, &gap, limit, hit);
+    }
+    fe__cores cores = cores_at(s, position);
+    sure_gap gap = {.gap = *start};
+    gap.sure = make_sure(s, &cores, &gap.gap);
+    return sweep_on(&tracker, 0.0, &gap, limit, hit);
 }
 
 int32_t fe__curved_sweep_from(const fe__approach *s, double from, double limit, fe__approach_hit *hit)
 {
-    looks l = looks_of(s);
-    sure_gap at = look_at(&l, from);
-    if (!(at.sure > s->radius + s->gap)) return -1;
-    return sweep_on(&l, from, &at, limit, hit);
+    gap_tracker tracker = track(s);
+    sure_gap gap = gap_at(&tracker, from);
+    if (!(gap.sure > s->radius + s->gap)) return -1;
+    return sweep_on(&tracker, from, &gap, limit, hit);
 }

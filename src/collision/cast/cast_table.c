@@ -1,5 +1,6 @@
-// cast_table.c - what rays, points and moving forms meet, for every kind of form. A heightfield has functions of its
-// own (heightfield.h, cast_kinds.h, sweep.h), so has a plane that a form moves against (sweep.c).
+// cast_table.c - the table of casts: ray, nearest point and core of every kind of form. Heightfields and meshes have
+// functions of their own (heightfield.h, mesh_ray.h, cast_kinds.h, sweep.h), and so has a plane that a form moves
+// against (sweep.c).
 #include "collision/cast/approach.h"
 #include "collision/cast/cast_kinds.h"
 

@@ -1,32 +1,33 @@
-// mesh_ray.simd.c - see mesh_ray.h.
-//
-// Triangles: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection (JCGT 2013). Space is sheared so that the ray
-// runs along an axis. A vertex then has a place in the plane, which depends on the vertex and the ray alone; whether
-// the ray passes left of an edge is the sign of one difference of two products. That is rounded the same for both
-// triangles of the edge, with opposite signs; being monotonic, it is 0 or has the sign of the exact difference, and 0
-// counts for both. So no ray passes between them. Where it meets an edge or a vertex, its distance is taken from that
-// alone: the triangles there agree on it, and the lowest number wins. The four triangles of a leaf are asked side by
-// side, in double; one that is met is met again by itself.
-//
-// Boxes are tested in float, and widened by more than its roundings: a box is never missed when a triangle in it is
-// hit. The start is moved along the ray to just before the mesh, for boxes and triangles alike: coordinates near it
-// lose nothing to a far start. All is done in the scaled frame: the products of floats that scale are exact in double.
+// mesh_ray.simd.c - rays and moving boxes against a mesh; see mesh_ray.h.
 #include "collision/cast/mesh_ray.h"
 
 #include "core/fours.h"
 #include "core/simd.h"
 
-// The triangles of one leaf wait, too
+// Triangles: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection (JCGT 2013). Space is sheared so that the ray
+// runs along an axis. A vertex then has a place in the plane, which depends on the vertex and the ray alone; whether
+// the ray passes left of an edge is the sign of one difference of two products. The difference is rounded the same for
+// both triangles of the edge, with opposite signs; rounding is monotonic, so that it is 0 or has the sign of the exact
+// difference, and 0 counts for both. So no ray passes between them. If the ray meets an edge or a vertex, its distance
+// is computed from that alone: the triangles there agree on it, and the lowest number wins. The four triangles of a
+// leaf are asked side by side, in double; one that is met is then computed by itself.
+//
+// Boxes are tested in float, and widened by more than the rounding of floats: a box is never missed if a triangle in it
+// is hit. The start is moved along the ray to just before the mesh, for boxes and triangles alike, so that coordinates
+// near the mesh lose nothing to a far start. All is done in the scaled frame: the product of a float and the scale is
+// exact in double.
+
+// The triangles of one leaf wait on the stack, too.
 enum { STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH + FE__MESH_LEAF };
-#define TRIANGLE 0x40000000u // of a child: the rest is its slot
+#define TRIANGLE 0x40000000u // bit of a child that is a triangle: the rest is its slot
 _Static_assert(FE__MESH_TRIANGLES <= TRIANGLE, "slots leave the bit free");
 
-// A slope is taken for no less: over the length of any mesh, 2e5 m, it moves a ray by less than any box is widened
+// Smaller slopes count as this one: over the length of any mesh, 2e5 m, it moves a ray by less than any box is widened.
 #define LEAST_SLOPE 1e-30
-// Of distances along the ray: five roundings of floats, one and a half times
+// Boxes are widened by this share of the distances along the ray: one and a half times five roundings of floats.
 #define WIDENING 0x1p-21f
 
-// x y z, the fourth is of no meaning
+// x y z; the fourth number means nothing.
 typedef union axes {
     _Alignas(32) double at[4];
     fe__four all;
@@ -37,21 +38,23 @@ typedef union floats {
 } floats;
 
 typedef struct caster {
-    axes origin, inverse, scale; // near the mesh; of the way; of the mesh
-    axes reach;                  // of s: half a box that moves
-    floats unit, half;           // of s: what 1 m of the mesh is; `reach`
+    axes origin;       // start of the ray, moved near to the mesh, m
+    axes inverse;      // 1 / way
+    axes scale;        // the mesh's scale
+    axes reach;        // half the moving box, in s
+    floats unit, half; // 1 m of the mesh, and `reach`, in s
     const fe__mesh *mesh;
-    int32_t near_row[3], far_row[3]; // of a node: where the sides stand that are met first, and the others, bytes
+    int32_t near_row[3], far_row[3]; // offsets, in a node, of the sides that are met first, and of the others, bytes
     int32_t kx, ky, kz;              // kz: the longest axis of the way; the others so that the frame is right-handed
-    int64_t meets_front, meets_back; // triangles that turn left around the ray, right
+    int64_t meets_front, meets_back; // -1: triangles that turn left around the ray count, those that turn right
     double shear_x, shear_y, scale_z;
     double moved, per_s; // t = (moved + s) per_s
-    double limit;        // of s, the nearest hit so far
-    float last;          // of boxes: no less
-    // of a ray
+    double limit;        // s of the nearest hit so far, or the limit
+    float last;          // the same for boxes, no less
+    // The nearest hit of a ray.
     int32_t slot, number, is_back;
     double weights[3];
-    // of a box
+    // The visitor of a box.
     fe__mesh_visit visit;
     void *context;
 } caster;
@@ -69,10 +72,11 @@ static inline sheared shear(const caster *c, const float *v)
                      s[c->ky] * (double)v[c->ky] - o[c->ky] - c->shear_y * z, c->scale_z * z};
 }
 
-// No less than x, as a float
+// A float that is no less than x.
 static float float_above(double x) { return (float)(x * (1.0 + 0x1p-22)); }
 
-// How far along the ray an edge is that it meets, from the edge alone, so that both its triangles say the same
+// The distance along the ray to an edge that it meets. It depends on the edge alone, so that both triangles give the
+// same.
 static double reach_edge(sheared a, sheared b)
 {
     if (a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)))) {
@@ -84,7 +88,8 @@ static double reach_edge(sheared a, sheared b)
     return a.z + fe__clampd(part, 0.0, 1.0) * (b.z - a.z);
 }
 
-// u v w: of the corners. Exact when all are equally far
+// The distance along the ray to a triangle, by the weights u v w of its corners. It is exact if all corners are equally
+// far.
 static double reach_triangle(sheared a, sheared b, sheared c, double u, double v, double w)
 {
     if (u == 0.0) return v == 0.0 ? c.z : w == 0.0 ? b.z : reach_edge(b, c);
@@ -93,7 +98,7 @@ static double reach_triangle(sheared a, sheared b, sheared c, double u, double v
     return a.z + (v * (b.z - a.z) + w * (c.z - a.z)) / (u + v + w);
 }
 
-// One that the ray passes through, from a side that counts
+// The ray passes through the triangle, from a side that counts.
 static void meet_triangle(caster *c, int32_t slot)
 {
     const fe__mesh *m = c->mesh;
@@ -101,7 +106,7 @@ static void meet_triangle(caster *c, int32_t slot)
             d = shear(c, fe__mesh_vertex(m, slot, 2));
     double u = d.x * b.y - d.y * b.x, v = a.x * d.y - a.y * d.x, w = b.x * a.y - b.y * a.x;
     double sum = u + v + w;
-    if (sum == 0.0) return; // edge-on
+    if (sum == 0.0) return; // The ray meets the triangle edge-on.
     double s = reach_triangle(a, b, d, u, v, w);
     if (!(s >= 0.0 && s <= c->limit)) return;
     int32_t number = fe__mesh_number(m, slot);
@@ -114,7 +119,7 @@ static void meet_triangle(caster *c, int32_t slot)
 // ---- the four of a leaf --------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Corner k of all four: x, y and z of each
+// Corner k of all four triangles: rows of x, y and z.
 typedef struct rows {
     fe__quad row[3];
 } rows;
@@ -129,13 +134,13 @@ static inline rows corners_of(const fe__mesh *m, const fe__mesh_leaf *leaf, int3
                    __builtin_shufflevector(zw, ZW, 0, 1, 4, 5)}};
 }
 
-// bit i: slot i of the leaf is a triangle
+// Bit i: slot i of the leaf is a triangle.
 static inline uint32_t slots_of(const fe__mesh *m, uint32_t leaf)
 {
     return (1u << fe__mini(m->triangle_count - FE__MESH_LEAF * (int32_t)leaf, FE__MESH_LEAF)) - 1;
 }
 
-// As shear(), x and y alone
+// shear() for corner k of all four triangles, without z.
 typedef struct places {
     fe__four x, y;
 } places;
@@ -160,7 +165,7 @@ static inline void meet_leaf(caster *c, uint32_t index)
         meet_triangle(c, FE__MESH_LEAF * (int32_t)index + __builtin_ctz(hits));
 }
 
-// Bit i: the box that moves meets the bounds of slot i, from `near` on
+// Bit i: the moving box meets the bounds of slot i, from near[i] on.
 static inline uint32_t meet_bounds(const caster *c, uint32_t index, float *near)
 {
     const fe__mesh_leaf *leaf = c->mesh->leaves + index;
@@ -174,26 +179,21 @@ static inline uint32_t meet_bounds(const caster *c, uint32_t index, float *near)
         enter = fe__four_max(enter, fe__four_min(s, t) - c->reach.at[k]);
         leave = fe__four_min(leave, fe__four_max(s, t) + c->reach.at[k]);
     }
-    *(fe__quad *)near = fe__four_narrow(enter * (1.0 - 0x1p-22)); // no later, as a float
+    *(fe__quad *)near = fe__four_narrow(enter * (1.0 - 0x1p-22)); // The float is no later.
     return fe__four_signs(enter <= leave) & slots_of(c->mesh, index);
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
-// 2^exponent of x y z; the fourth is of no meaning
-static inline fe__quad steps_of(const fe__mesh_node *node)
-{
-    const fe__quad_int exponents = {node->exponent[0], node->exponent[1], node->exponent[2], 0};
-    return (fe__quad)((exponents + 127) << 23);
-}
-
-// Bit i: the ray, or the box that moves along it, meets the box of child i, from `near` on
+// Bit i: the ray, or the box that moves along it, meets the box of child i, from near[i] on. A step is 2^exponent, made
+// from the bits of a float; the fourth means nothing.
 //
 //   s = ((scale (origin + step byte) - o) -+ half) inverse = base + (step unit) byte -+ half |inverse|
 static inline uint32_t meet_boxes(const caster *c, const fe__mesh_node *node, float *near)
 {
     fe__quad base = fe__four_narrow((c->scale.all * fe__four_of(*(const loose_quad *)node->origin) - c->origin.all) *
                                     c->inverse.all);
-    floats step = {.all = c->unit.all * steps_of(node)}, first, last;
+    const fe__quad_int exponents = {node->exponent[0], node->exponent[1], node->exponent[2], 0};
+    floats step = {.all = c->unit.all * (fe__quad)((exponents + 127) << 23)}, first, last;
     fe__quad wider = WIDENING * (fe__quad_abs(base) + 255.0f * fe__quad_abs(step.all) + c->half.all) + c->half.all;
     first.all = base - wider, last.all = base + wider;
     fe__eight enter = fe__eight_set(0.0f), leave = fe__eight_set(c->last);
@@ -209,18 +209,19 @@ static inline uint32_t meet_boxes(const caster *c, const fe__mesh_node *node, fl
     return fe__eight_at_most(enter, leave) & ((1u << node->count) - 1);
 }
 
-// What waits: where the ray enters it, whose bits are in the order of floats as it is not negative, and the child
+// A child that waits: the s at which the ray enters it in the high bits, its number in the low ones. The bits of floats
+// that are not negative are in the order of the floats.
 typedef uint64_t entry;
 static inline entry entry_of(float near, uint32_t child)
 {
     union {
         float value;
         uint32_t bits;
-    } t = {near + 0.0f}; // -0 is 0
+    } t = {near + 0.0f}; // -0 becomes 0.
     return (entry)t.bits << 32 | child;
 }
 
-// Children that are met, the nearest on top
+// Pushes the children that are met, the nearest on top.
 static inline int32_t push(entry *stack, int32_t top, uint32_t hits, const float *near, uint32_t first)
 {
     int32_t base = top;
@@ -265,18 +266,8 @@ static inline __attribute__((always_inline)) void walk(question q, caster *c)
 }
 
 // ---- the ray -------------------------------------------------------------------------------------------------------
-// The power of two that brings x to 2..4: of any x that is no denormal it is a normal number
-static double scale_for(double x)
-{
-    union {
-        double value;
-        uint64_t bits;
-    } a = {x};
-    a.bits = (uint64_t)(2047 - (int32_t)(a.bits >> 52 & 2047)) << 52;
-    return a.value;
-}
-
-// Where the way comes into the bounds, widened by more than the move is rounded; 0: it does not, or it begins there
+// Finds the s at which the way comes into the bounds, widened by more than the rounding of the move. 0: it does not
+// come into them
 static int32_t clip(const caster *c, const double way[3], const double half[3], double *enter)
 {
     const fe__mesh *m = c->mesh;
@@ -328,19 +319,25 @@ static inline void choose_sides(caster *c, const double way[3], const double hal
     c->meets_back = -(int64_t)(m->is_mirrored || m->is_two_sided);
 }
 
-// 0: the ray, or the box of those half widths that moves along it, passes by the mesh
+// Prepares a ray, or a box of those half widths that moves along it. 0: it passes by the mesh
 static inline int32_t prepare(caster *c, fe_dvec3 origin, fe_dvec3 translation, const double half[3], double limit)
 {
     double longest = fe__maxd(fe__maxd(fe__absd(translation.x), fe__absd(translation.y)), fe__absd(translation.z));
     if (!(longest > FE__MESH_STILL)) return 0;
-    double scale = scale_for(longest);
+    // The power of two that brings the longest component to 2..4. It is a normal number if that component is one.
+    union {
+        double value;
+        uint64_t bits;
+    } power = {longest};
+    power.bits = (uint64_t)(2047 - (int32_t)(power.bits >> 52 & 2047)) << 52;
+    double scale = power.value;
     const double way[3] = {scale * translation.x, scale * translation.y, scale * translation.z};
     c->origin.at[0] = origin.x, c->origin.at[1] = origin.y, c->origin.at[2] = origin.z;
     c->per_s = scale;
     if (!clip(c, way, half, &c->moved)) return 0;
     c->limit = limit / scale - c->moved;
     if (!(c->limit >= 0.0)) return 0;
-    c->limit = fe__mind(c->limit, 1e30); // any mesh ends before
+    c->limit = fe__mind(c->limit, 1e30); // Any mesh ends before that.
     c->last = float_above(c->limit);
     for (int32_t k = 0; k < 3; ++k) c->origin.at[k] += c->moved * way[k];
     choose_axes(c, way);
@@ -348,31 +345,26 @@ static inline int32_t prepare(caster *c, fe_dvec3 origin, fe_dvec3 translation, 
     return 1;
 }
 
-static void report(const caster *c, double limit, fe__mesh_hit *out)
-{
-    fe_dvec3 v[3];
-    fe__mesh_corners(c->mesh, c->slot, v);
-    fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
-    double k = (c->is_back ? -1.0 : 1.0) / sqrt(fe__ddot(n, n));
-    out->hit.t = fe__mind((c->moved + c->limit) * c->per_s, limit), out->hit.normal = fe__dscale(k, n);
-    out->hit.depth = 0.0, out->hit.inside = 0, out->hit.triangle = c->number, out->hit.index = c->slot;
-    out->is_back = c->is_back;
-    for (int32_t i = 0; i < 3; ++i) out->weights[i] = c->weights[i];
-}
-
-static int32_t ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit)
+static int32_t ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *out)
 {
     caster c;
     c.mesh = mesh, c.slot = -1;
     if (!prepare(&c, origin, translation, (const double[3]){0.0, 0.0, 0.0}, limit)) return 0;
     walk(RAY, &c);
     if (c.slot < 0) return 0;
-    report(&c, limit, hit);
+    fe_dvec3 v[3];
+    fe__mesh_corners(mesh, c.slot, v);
+    fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
+    double k = (c.is_back ? -1.0 : 1.0) / sqrt(fe__ddot(n, n));
+    out->hit.t = fe__mind((c.moved + c.limit) * c.per_s, limit), out->hit.normal = fe__dscale(k, n);
+    out->hit.depth = 0.0, out->hit.inside = 0, out->hit.triangle = c.number, out->hit.index = c.slot;
+    out->is_back = c.is_back;
+    for (int32_t i = 0; i < 3; ++i) out->weights[i] = c.weights[i];
     return 1;
 }
 
 // ---- boxes ---------------------------------------------------------------------------------------------------------
-// No less than what is left of the way: s is known to some roundings of what was moved
+// The new limit is no less than the end of the way: s is known to some roundings of the way that was moved.
 static void set_limit(caster *c, double limit)
 {
     double s = limit / c->per_s - c->moved;

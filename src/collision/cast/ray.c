@@ -1,17 +1,15 @@
-// ray.c - where a ray meets a form: closed forms in double, in the form's frame.
+// ray.c - a ray against a form, and the point of a cylinder or a cone nearest to a point: closed forms in double, in
+// the form's frame (cast_kinds.h).
 //
-// Input: the query's ray, turned into the frame of a shape. Read by queries and by what stops fast bodies. A form is a
-// closed set: a start on its surface is a start inside, of depth 0. The round forms first move the start to the point
-// nearest to their centre, where nothing cancels, and take the root there; so a small sphere is met from 10 km away as
-// exactly as the start is known (about 1e-12 m). Every finite input gives an answer without NaN: lengths of translation
-// and start are brought into the range in which squares neither overflow nor vanish.
+// A form is a closed set: a start on its surface is a start inside, of depth 0. The round forms first move the start to
+// the ray's point nearest to their centre, where nothing cancels, and take the root there; so a small sphere is met
+// from 10 km away as exactly as the start is known (about 1e-12 m). Every finite input gives an answer without NaN:
+// lengths of translation and start are brought into the range in which squares neither overflow nor vanish.
 #include "collision/cast/cast_kinds.h"
 
 #include "collision/cast/mesh_ray.h"
 
 #include <math.h>
-
-// ---- ray ------------------------------------------------------------------------------------------------------------
 
 // Squares and products of lengths between these limits are finite, normal numbers. Beyond them, lengths are scaled by a
 // power of two, which is exact, and brings the whole range of double (5e-324 to 1.8e308) to within 1e-114 and 1e98.
@@ -23,7 +21,8 @@ static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
 static double scale_for(double size) { return size > longest ? scale_down : size < shortest ? scale_up : 1.0; }
 
 // ---- hits ----------------------------------------------------------------------------------------------------------
-// Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
+// The fields are written one by one: they are read at once, and a copy of the whole would wait for pieces that were
+// just written.
 static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
 {
     hit->t = t, hit->depth = depth, hit->inside = inside, hit->triangle = hit->index = -1;
@@ -31,7 +30,7 @@ static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth,
     return 1;
 }
 
-// A start inside: the normal is against the direction, or the shortest way out when there is none.
+// The ray begins inside: the normal is against its direction or, if it has none, the shortest way out.
 static int32_t start_inside(const fe__scaled_ray *r, double depth, fe_dvec3 way_out, fe__ray_hit *hit)
 {
     double speed = length(r->direction);
@@ -39,7 +38,7 @@ static int32_t start_inside(const fe__scaled_ray *r, double depth, fe_dvec3 way_
     return report(hit, 0.0, normal, fe__maxd(depth, 0.0), 1);
 }
 
-// A hit from outside at s. That s is positive is known; a rounding below 0 is none.
+// A hit from outside at s, which is positive but for rounding.
 static int32_t meet(const fe__scaled_ray *r, double s, fe_dvec3 normal, fe__ray_hit *hit)
 {
     double t = fe__maxd(s, 0.0) * r->per_s;
@@ -53,14 +52,15 @@ typedef struct entry {
     fe_dvec3 normal; // unit
 } entry;
 
-// Where the line o + s d enters the ball of a radius about 0, or, for o and d without y, the cylinder about the y axis.
-//   s0 = -o.d / d.d,  p = o + s0 d  (nearest point),  h = sqrt(r^2 - p^2)  (half chord),  s = s0 - h / |d|,  normal =
-//   (p - h d / |d|) / r
+// The entry of the line o + s d into the ball of a radius about 0 or, for o and d without y, into the cylinder about
+// the y axis.
+//   s0 = -o.d / d.d,  p = o + s0 d  (nearest point),  h = sqrt(r^2 - p^2)  (half chord),
+//   s = s0 - h / |d|,  normal = (p - h d / |d|) / r
 static int32_t enter_round(fe_dvec3 o, fe_dvec3 d, double radius, entry *out)
 {
     double k = largest(o) > longest ? scale_down : 1.0, speed = length(d);
     double nearest = -(fe__ddot(fe__dscale(k, o), d) / (speed * speed)) / k;
-    if (!(fe__absd(nearest) < (double)INFINITY)) return 0; // farther than any limit
+    if (!(fe__absd(nearest) < (double)INFINITY)) return 0; // It is farther than any limit.
     fe_dvec3 p = fe__dadd(o, fe__dscale(nearest, d));
     if (!(largest(p) <= radius)) return 0;
     double hh = radius * radius - fe__ddot(p, p);
@@ -71,17 +71,17 @@ static int32_t enter_round(fe_dvec3 o, fe_dvec3 d, double radius, entry *out)
     return 1;
 }
 
-// The ball of a radius about `centre`, met from outside.
+// A ray from outside against the ball of a radius about `centre`.
 static int32_t meet_ball(const fe__scaled_ray *r, fe_dvec3 centre, double radius, fe__ray_hit *hit)
 {
     entry e;
     fe_dvec3 o = fe__dsub(r->origin, centre);
-    if (fe__ddot(fe__dscale(scale_for(largest(o)), o), r->direction) >= 0.0) return 0; // not coming nearer
+    if (fe__ddot(fe__dscale(scale_for(largest(o)), o), r->direction) >= 0.0) return 0; // It does not come nearer.
     return enter_round(o, r->direction, radius, &e) && meet(r, e.s, e.normal, hit);
 }
 
-// Depth below the surface of a point `away` from the core of a radius; below 0 outside. `way_out` is `flat` where the
-// point is on the core.
+// The depth below the surface of a point that is `away` from a core with a radius; below 0 outside. `way_out` is `flat`
+// if the point is on the core.
 static double depth_in_round(fe_dvec3 away, double radius, fe_dvec3 flat, fe_dvec3 *way_out)
 {
     if (largest(away) > radius) return -1.0;
@@ -101,8 +101,8 @@ int32_t fe__ray_sphere(const fe__form *form, const fe__scaled_ray *r, fe__ray_hi
     return meet_ball(r, (fe_dvec3){0.0, 0.0, 0.0}, radius, hit);
 }
 
-// The capsule lies in the infinite cylinder about its axis. A ray enters that first, or starts in it: between the ends
-// of the axis that is the hit, beyond an end only the ball about that end can be.
+// The capsule lies in the infinite cylinder about its axis. A ray enters the cylinder first, or begins in it. An entry
+// between the ends of the axis is the hit; beyond an end the ray can hit only the ball about that end.
 int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     double radius = (double)form->radius, half = (double)form->half_height;
@@ -115,8 +115,8 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_h
     double y = o.y;
     if (depth_in_round(across, radius, aside, &unused) < 0.0) {
         entry e;
-        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0)
-            return 0; // parallel to the axis, or away from it
+        // The ray is parallel to the axis, or leads away from it.
+        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0) return 0;
         if (!enter_round(across, drift, radius, &e)) return 0;
         y = o.y + fe__maxd(e.s, 0.0) * d.y;
         if (fe__absd(y) <= half) return meet(r, e.s, e.normal, hit);
@@ -125,12 +125,7 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_h
 }
 
 // ---- flat surfaces -------------------------------------------------------------------------------------------------
-static fe_dvec3 axis_normal(int32_t axis, double sign)
-{
-    return (fe_dvec3){axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0};
-}
-
-static int32_t inside_box(const fe__scaled_ray *r, const double o[3], const double half[3], fe__ray_hit *hit)
+static int32_t start_in_box(const fe__scaled_ray *r, const double o[3], const double half[3], fe__ray_hit *hit)
 {
     double depth = half[0] - fe__absd(o[0]);
     int32_t axis = 0;
@@ -141,11 +136,13 @@ static int32_t inside_box(const fe__scaled_ray *r, const double o[3], const doub
             axis = k;
         }
     }
-    return start_inside(r, depth, axis_normal(axis, o[axis] < 0.0 ? -1.0 : 1.0), hit);
+    double sign = o[axis] < 0.0 ? -1.0 : 1.0;
+    fe_dvec3 way_out = {axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0};
+    return start_inside(r, depth, way_out, hit);
 }
 
-// One slab: the ray is in it from the first to the second. Along it, 0 / 0 is met on its sides only, and a NaN counts
-// for no bound below. Two quotients take no longer than one.
+// The ray is in the slab from the first quotient to the second. A ray along the slab gives 0 / 0 on its sides only, and
+// a NaN does not change the bounds below. Two quotients take no longer than one.
 typedef double two __attribute__((vector_size(16)));
 static inline two cross_slab(double o, double d, double half)
 {
@@ -153,7 +150,7 @@ static inline two cross_slab(double o, double d, double half)
     return ((two){-far_side, far_side} - (two){o, o}) / (two){d, d};
 }
 
-// -1 or 1, against d, or 0 when it is not this side
+// -1 or 1, against d; 0: it is not this side
 static inline double against(double d, int32_t is_side)
 {
     union {
@@ -164,14 +161,10 @@ static inline double against(double d, int32_t is_side)
     return one.value;
 }
 
-static int32_t is_in_box(fe_dvec3 o, const double half[3])
-{
-    return fe__absd(o.x) <= half[0] && fe__absd(o.y) <= half[1] && fe__absd(o.z) <= half[2];
-}
-
-// Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest
-// axis gives the normal. The signs of the direction, the order of the entries and which side is missed are random:
-// nothing branches on them. From inside, no slab is entered later than at 0 or left before.
+// The ray is in the box from its last entry into one of three slabs to its first exit (Kay and Kajiya, Ray Tracing
+// Complex Scenes, 1986). On an edge the lowest axis gives the normal. The signs of the direction, the order of the
+// entries and the side that is missed are random: nothing branches on them. From inside, no slab is entered later than
+// at 0 or left before.
 int32_t fe__ray_box(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
@@ -181,18 +174,19 @@ int32_t fe__ray_box(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *
     double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))),
            leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
     if ((enter > leave) | (leave < 0.0) | !(fe__maxd(enter, 0.0) * r->per_s <= r->limit)) return 0;
-    if (enter <= 0.0 && is_in_box(o, half)) return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
+    if (enter <= 0.0 && fe__absd(o.x) <= half[0] && fe__absd(o.y) <= half[1] && fe__absd(o.z) <= half[2])
+        return start_in_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
     const int32_t is_x = x[0] >= enter, is_y = (y[0] >= enter) & ~is_x, is_z = 1 & ~(is_x | is_y);
     return meet(r, enter, (fe_dvec3){against(d.x, is_x), against(d.y, is_y), against(d.z, is_z)}, hit);
 }
 
-// The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is
-// finite.
+// The height n.o - distance falls at the rate n.d. A quarter of both is taken, so that the sum of three products of
+// finite numbers is finite.
 int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double quarter = 0.25;
     fe_dvec3 n = fe__widen(form->normal);
-    double n_length = length(n); // 1 up to the rounding of floats
+    double n_length = length(n); // It is 1 up to the rounding of floats.
     fe_dvec3 unit = fe__dscale(1.0 / n_length, n);
     double above = fe__ddot(n, fe__dscale(quarter, r->origin)) - quarter * (double)form->distance;
     if (above <= 0.0) return start_inside(r, -above / (quarter * n_length), unit, hit);
@@ -200,8 +194,8 @@ int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit
     return rate < 0.0 && meet(r, above / -rate, unit, hit);
 }
 
-// From the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d,  and the point is left of
-// every side.
+// The ray comes from the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d.  It hits if
+// the point is left of every side.
 int32_t fe__ray_triangle(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const fe_dvec3 v[3] = {fe__widen(form->vertex[0]), fe__widen(form->vertex[1]), fe__widen(form->vertex[2])};
@@ -222,25 +216,17 @@ int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_d
                         fe__ray_hit *hit)
 {
     double scale = scale_for(largest(*translation));
-    fe__scaled_ray r = {{origin->x, origin->y, origin->z},
-                        fe__dscale(scale, *translation),
-                        scale,
-                        limit}; // each number alone: see report
+    // The origin's numbers are copied one by one for the reason given at report().
+    fe__scaled_ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit};
     return fe__casts[form->type].ray(form, &r, hit);
 }
 
-// ---- rim ------------------------------------------------------------------------------------------------------------
-// Where a ray or a point meets a cylinder or a cone: closed forms in double, in the form's frame.
-//
-// Input: ray.c's rays, nearest_point.c's points. A convex form about an axis is the part of a round surface between two
-// planes: a ray is in it from the last entry to the first exit. Seen along the axis a point is nearest to a rectangle
-// or a triangle.
-
-// ---- points --------------------------------------------------------------------------------------------------------
-// A point as seen in the half plane through it and the axis: `out` from the axis, `up` along it
+// ---- cylinder and cone: nearest points -----------------------------------------------------------------------------
+// In the half plane through the point and the axis the form is a rectangle or a triangle. The point is `out` from the
+// axis and `up` along it.
 typedef struct profile {
     double out, up;
-    double x, z; // unit, outwards; x where the point is on the axis
+    double x, z; // unit, outwards; along x if the point is on the axis
 } profile;
 
 static profile profile_of(fe_dvec3 p)
@@ -251,17 +237,17 @@ static profile profile_of(fe_dvec3 p)
     return (profile){most * length, p.y, x / length, z / length};
 }
 
-// the surface's point and normal (unit) in the half plane
+// From the surface's point (out, up) and its unit normal in the half plane.
 static fe__nearest lifted(const profile *p, double distance, double normal_out, double normal_up, double out, double up)
 {
-    return (
-        fe__nearest){distance, {normal_out * p->x, normal_up, normal_out * p->z}, {out * p->x, up, out * p->z}, -1, -1};
+    fe_dvec3 normal = {normal_out * p->x, normal_up, normal_out * p->z}, point = {out * p->x, up, out * p->z};
+    return (fe__nearest){distance, normal, point, -1, -1};
 }
 
 static fe__nearest from_outside(const profile *p, double out, double up)
 {
     double x = p->out - out, y = p->up - up, most = fe__maxd(fe__absd(x), fe__absd(y)), length;
-    if (!(most > 0.0)) return lifted(p, 0.0, 0.0, up < 0.0 ? -1.0 : 1.0, out, up); // a corner itself
+    if (!(most > 0.0)) return lifted(p, 0.0, 0.0, up < 0.0 ? -1.0 : 1.0, out, up); // The point is a corner itself.
     x /= most, y /= most, length = sqrt(x * x + y * y);
     return lifted(p, most * length, x / length, y / length, out, up);
 }
@@ -299,8 +285,9 @@ fe__nearest fe__nearest_on_cone(const fe__form *form, fe_dvec3 point)
     return from_outside(&p, out, up);
 }
 
-// ---- rays ----------------------------------------------------------------------------------------------------------
-// The ray is in from `enter` to `leave`, of s.
+// ---- cylinder and cone: rays ---------------------------------------------------------------------------------------
+// A convex form about an axis is the part of a round surface between two planes. A ray is in it from the last entry to
+// the first exit. `enter` and `leave` are values of s.
 typedef struct stay {
     double enter, leave;
 } stay;
@@ -313,19 +300,19 @@ static stay between(double y, double rate, double half)
     return (stay){fe__mind(a, b), fe__maxd(a, b)};
 }
 
-// |o + s d| <= r in the plane across the axis, from the point nearest to the axis on
+// |o + s d| <= r in the plane across the axis. The roots lie on either side of the point nearest to the axis.
 static stay in_cylinder(double ox, double oz, double dx, double dz, double r)
 {
     double square = dx * dx + dz * dz;
     if (square == 0.0) return ox * ox + oz * oz <= r * r ? (stay){-(double)INFINITY, (double)INFINITY} : nowhere;
     double middle = -(ox * dx + oz * dz) / square, x = ox + middle * dx, z = oz + middle * dz;
-    double room = r * r - (x * x + z * z);
-    if (!(room >= 0.0)) return nowhere;
-    double half = sqrt(room / square);
+    double inside = r * r - (x * x + z * z);
+    if (!(inside >= 0.0)) return nowhere;
+    double half = sqrt(inside / square);
     return (stay){middle - half, middle + half};
 }
 
-// out^2 <= (k w)^2, w the depth below the tip: of the quadric's two halves the one with w >= 0.
+// out^2 <= (k w)^2 with the depth w below the tip; the form is that half of the quadric that has w >= 0.
 //   a s^2 + 2 b s + c <= 0
 static stay in_cone(fe_dvec3 o, fe_dvec3 d, double k, double tip)
 {
@@ -335,66 +322,54 @@ static stay in_cone(fe_dvec3 o, fe_dvec3 d, double k, double tip)
     double square = b * b - a * c;
     if (!(square >= 0.0)) {
         if (a >= 0.0) return nowhere;
-        square = 0.0; // past the tip
+        square = 0.0; // The ray passes by the tip.
     }
     double q = -(b + __builtin_copysign(sqrt(square), b));
-    if (q == 0.0) { // both at s = 0, or along the side from the tip
+    if (q == 0.0) { // Both roots are at s = 0, or the ray runs along the side from the tip.
         if (a > 0.0) return w >= 0.0 ? (stay){0.0, 0.0} : nowhere;
         return dw > 0.0 ? (stay){0.0, none} : (stay){-none, 0.0};
     }
-    double one = c / q, two = q / a; // of a = 0 the second is infinite
+    double first = c / q, second = q / a; // If a = 0, the second is infinite.
     if (a > 0.0) {
         double middle = -b / a;
-        return w + middle * dw >= 0.0 ? (stay){fe__mind(one, two), fe__maxd(one, two)} : nowhere;
+        return w + middle * dw >= 0.0 ? (stay){fe__mind(first, second), fe__maxd(first, second)} : nowhere;
     }
-    if (a == 0.0) return dw > 0.0 ? (stay){one, none} : (stay){-none, one};
-    return dw > 0.0 ? (stay){fe__maxd(one, two), none} : (stay){-none, fe__mind(one, two)};
+    if (a == 0.0) return dw > 0.0 ? (stay){first, none} : (stay){-none, first};
+    return dw > 0.0 ? (stay){fe__maxd(first, second), none} : (stay){-none, fe__mind(first, second)};
 }
 
-static int32_t start_in_round(const fe__scaled_ray *r, const fe__nearest *n, fe__ray_hit *hit)
-{
-    double speed = sqrt(fe__ddot(r->direction, r->direction));
-    fe_dvec3 normal = speed > 0.0 ? fe__dscale(-1.0 / speed, r->direction) : n->normal;
-    *hit = (fe__ray_hit){0.0, normal, fe__maxd(-n->distance, 0.0), 1, -1, -1};
-    return 1;
-}
-
-// The start is moved to the point of the line nearest to the origin, where nothing cancels; `move` is how far. 0: the
-// line passes the ball of `reach` about the origin, or the form lies behind.
-static int32_t come_near(const fe__scaled_ray *r, double reach, fe_dvec3 *near, double *move)
+// Moves the start by `move`, in s, to the point of the line nearest to the origin, where nothing cancels. 0: the line
+// passes by the ball of `radius` about the origin
+static int32_t come_near(const fe__scaled_ray *r, double radius, fe_dvec3 *near, double *move)
 {
     fe_dvec3 o = r->origin, d = r->direction;
-    double far = fe__maxd(fe__maxd(fe__absd(o.x), fe__absd(o.y)), fe__absd(o.z)), speed = sqrt(fe__ddot(d, d));
-    const double longest = 1e100; // squares of lengths up to it are finite
-    double scale = far > longest ? 0x1p-700 : 1.0;
+    double speed = length(d), scale = largest(o) > longest ? scale_down : 1.0;
     if (!(speed > 0.0)) return 0;
     *move = -(fe__ddot(fe__dscale(scale, o), d) / (speed * speed)) / scale;
     if (!(fe__absd(*move) < (double)INFINITY)) return 0;
     *near = fe__dadd(o, fe__dscale(*move, d));
-    return fe__absd(near->x) <= reach && fe__absd(near->y) <= reach && fe__absd(near->z) <= reach;
+    return fe__absd(near->x) <= radius && fe__absd(near->y) <= radius && fe__absd(near->z) <= radius;
 }
 
-// At a tip or a rim many planes hold the form. When the side's normal, of rounding there, is along the ray, another is
-// not: between it and the end's, or the one across the ray that leans most to `spare`.
+// At a tip or a rim many planes hold the form, and rounding makes the side's normal. If that is along the ray, another
+// one is not: one between it and the end's normal, or the one across the ray that leans most to `spare`.
 static fe_dvec3 opposing_normal(fe_dvec3 side, fe_dvec3 end, fe_dvec3 spare, fe_dvec3 direction)
 {
     double along = fe__ddot(side, direction), back = fe__ddot(end, direction), square = fe__ddot(direction, direction);
     if (!(along > 0.0)) return side;
     fe_dvec3 n = back < 0.0 ? fe__dadd(fe__dscale(-back, side), fe__dscale(along, end))
                             : fe__dsub(spare, fe__dscale(fe__ddot(spare, direction) / square, direction));
-    double length = sqrt(fe__ddot(n, n));
-    return length > 0.0 ? fe__dscale(1.0 / length, n) : fe__dscale(-1.0 / sqrt(square), direction);
+    double n_length = length(n);
+    return n_length > 0.0 ? fe__dscale(1.0 / n_length, n) : fe__dscale(-1.0 / sqrt(square), direction);
 }
 
+// The ray is in the form while it is in the round surface and between the flat ends.
 static int32_t meet_round(const fe__scaled_ray *r, stay round, stay flat, double move, fe_dvec3 side, fe_dvec3 end,
-                    fe__ray_hit *hit)
+                          fe__ray_hit *hit)
 {
     double enter = fe__maxd(round.enter, flat.enter), leave = fe__mind(round.leave, flat.leave);
     if (!(enter <= leave) || !(leave + move >= 0.0)) return 0;
-    double t = fe__maxd(enter + move, 0.0) * r->per_s;
-    if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){t, round.enter > flat.enter ? side : end, 0.0, 0, -1, -1};
-    return 1;
+    return meet(r, enter + move, round.enter > flat.enter ? side : end, hit);
 }
 
 static fe_dvec3 end_normal(double rate) { return (fe_dvec3){0.0, rate > 0.0 ? -1.0 : 1.0, 0.0}; }
@@ -403,7 +378,7 @@ int32_t fe__ray_cylinder(const fe__form *form, const fe__scaled_ray *r, fe__ray_
 {
     double radius = (double)form->half.x, half = (double)form->half.y, move;
     fe__nearest n = fe__nearest_on_cylinder(form, r->origin);
-    if (n.distance <= 0.0) return start_in_round(r, &n, hit);
+    if (n.distance <= 0.0) return start_inside(r, -n.distance, n.normal, hit);
     fe_dvec3 o, d = r->direction;
     if (!come_near(r, radius + half, &o, &move)) return 0;
     stay round = in_cylinder(o.x, o.z, d.x, d.z, radius), flat = between(o.y, d.y, half);
@@ -417,19 +392,19 @@ int32_t fe__ray_cone(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit 
     double radius = (double)form->half.x, half = (double)form->half.y, l = sqrt(radius * radius + 4.0 * half * half),
            move;
     fe__nearest n = fe__nearest_on_cone(form, r->origin);
-    if (n.distance <= 0.0) return start_in_round(r, &n, hit);
+    if (n.distance <= 0.0) return start_inside(r, -n.distance, n.normal, hit);
     fe_dvec3 o, d = r->direction;
     if (!come_near(r, radius + half, &o, &move)) return 0;
     stay round = in_cone(o, d, radius / (2.0 * half), half), flat = between(o.y, d.y, half);
     profile side = profile_of((fe_dvec3){o.x + round.enter * d.x, 0.0, o.z + round.enter * d.z});
     fe_dvec3 normal = {side.x * (2.0 * half / l), radius / l, side.z * (2.0 * half / l)};
-    // going up, the base is behind where the side is met
+    // A ray that goes up leaves the base behind it when it meets the side.
     fe_dvec3 up = {0.0, 1.0, 0.0}, end = end_normal(d.y);
     return meet_round(r, round, flat, move, opposing_normal(normal, d.y < 0.0 ? end : up, up, d), end, hit);
 }
 
 // ---- mesh casts -----------------------------------------------------------------------------------------------------
-// Which of the casts against meshes a world takes: those of its SIMD set (mesh_ray.simd.c).
+// A world casts against meshes with the kernels of its SIMD set (mesh_ray.simd.c).
 
 #define DECLARE(simd, name) extern const fe__mesh_casts fe__mesh_casts_##name;
 FE_EACH_WIDE_SET(DECLARE)

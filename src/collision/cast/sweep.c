@@ -1,9 +1,9 @@
-// sweep.c - when a moving form meets a standing one; see sweep.h.
+// sweep.c - the sweep of a moving form against a standing one; see sweep.h.
 //
 // The distance f(t) of two convex cores, one of them moving straight, is a convex function of t. So its tangent stays
-// below it, and the step to where the tangent reaches the sum of the radii never goes too far: Newton's method from
-// outside is conservative advancement with the best possible bound. It converges quadratically, and by halves where the
-// forms graze. Two boxes have a closed form (sweep.c), so has a plane.
+// below it, and the step to the place where the tangent reaches the sum of the radii never goes too far: Newton's
+// method from outside is conservative advancement with the best possible bound. It converges quadratically, and by
+// halves if the forms graze. Two boxes, a box and a triangle, and a plane have closed forms.
 #include "collision/cast/sweep.h"
 
 #include "collision/cast/approach.h"
@@ -13,12 +13,13 @@
 
 #include <string.h>
 
-// ---- sweep ----------------------------------------------------------------------------------------------------------
-
-// Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
+// ---- the approach ---------------------------------------------------------------------------------------------------
+// Halving 10 km so often comes down to 1e-11 m; a body that is met squarely needs 3 to 6 steps.
 enum { MAX_STEPS = 64 };
-#define ROUNDING 2e-15     // of the lengths involved: how well f is known
-#define GAP_TOLERANCE 0.1f // of the gap: a stop within that of it is one
+// f is known to this share of the lengths involved.
+#define ROUNDING 2e-15
+// A stop is accepted if it misses the gap by no more than this share of it.
+#define GAP_TOLERANCE 0.1f
 
 int32_t fe__core_kind_of(const fe__form *form) { return fe__casts[form->type].core; }
 
@@ -28,7 +29,7 @@ void fe__core_half(const fe__form *form, double half[3])
     half[2] = (double)form->half.z;
 }
 
-// What keeps the bodies apart is never below what rounding may take.
+// The gap and the touch are never less than the rounding of the lengths.
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
 double fe__stop_gap(const fe__mover *mover)
 {
@@ -36,7 +37,7 @@ double fe__stop_gap(const fe__mover *mover)
 }
 double fe__touch_of(const fe__mover *mover) { return FE_SWEEP_TOUCH + ROUNDING * size(mover->position); }
 
-// 1: the mover gives the frame
+// Fills the approach. 1: the mover gives the frame
 static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approach *s)
 {
     int32_t still_kind = fe__core_kind_of(still), mover_kind = fe__core_kind_of(mover->form),
@@ -64,7 +65,7 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
 double fe__height_over_plane(const fe__form *plane, const fe__mover *mover)
 {
     fe_dvec3 n = fe__widen(plane->normal);
-    double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
+    double half[3], length = sqrt(fe__ddot(n, n)); // The length is 1 up to the rounding of floats.
     fe__core_half(mover->form, half);
     fe_dvec3 down = fe__dscale(-1.0, fe__turn_back(&mover->axes, n));
     double e = fe__core_kind_of(mover->form) == FE_CORE_CURVED
@@ -74,24 +75,25 @@ double fe__height_over_plane(const fe__form *plane, const fe__mover *mover)
     return (fe__ddot(n, mover->position) - (double)plane->distance - e) / length - (double)mover->form->radius;
 }
 
-// In the approach's frame.
+// The overlap is in the approach's frame.
 fe__core_overlap fe__approach_overlap(const fe__approach *s)
 {
     fe__core_overlap o = {.gap = {0}};
     if (fe__is_curved_pair(s)) {
         fe__curved_gap_of(s, s->position, &o.gap);
-        if (!(o.gap.distance > s->touch)) { // rounding alone gives the direction between nearer points
+        if (!(o.gap.distance > s->touch)) { // Between nearer points rounding makes the direction.
             o.depth = fe__curved_depth(s, &o.way_out, &o.gap) + s->radius;
             return o;
         }
-    } else if (s->other_kind != FE_CORE_BOX)
+    } else if (s->other_kind != FE_CORE_BOX) {
         fe__core_gap_of(s, s->position, &o.gap);
+    }
     if (o.gap.distance > 0.0) {
         o.depth = s->radius - o.gap.distance;
         o.way_out = fe__dscale(1.0 / o.gap.distance, o.gap.away);
     } else {
         o.depth = fe__core_depth(s, &o.way_out) + s->radius;
-        if (s->other_kind != FE_CORE_BOX) o.depth = fe__maxd(o.depth, s->radius); // cores that touch
+        if (s->other_kind != FE_CORE_BOX) o.depth = fe__maxd(o.depth, s->radius); // The cores touch.
     }
     return o;
 }
@@ -105,14 +107,14 @@ int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
     return fe__is_inside(&s, &o);
 }
 
-// ---- sweeps --------------------------------------------------------------------------------------------------------
-// Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes
-// so near until `limit`. `gap` is that at t, before and after.
+// ---- round cores ---------------------------------------------------------------------------------------------------
+// Goes by Newton's method from `t` to the place where the distance is `goal`, or more by at most `tolerance`. 0: it is
+// not so near up to `limit`. `gap` is the gap at t, before and after.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double limit, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
         if (i > 0) fe__core_gap_of(s, fe__approach_at(s, *t), gap);
-        double rate = fe__ddot(gap->away, s->translation) / gap->distance; // of the distance, m per t
+        double rate = fe__ddot(gap->away, s->translation) / gap->distance; // m per t
         if (!(rate < 0.0)) return 0;
         if (gap->distance <= goal + tolerance || i == MAX_STEPS) return 1;
         *t += (gap->distance - goal) / -rate;
@@ -120,14 +122,14 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
     }
 }
 
-// It stops where the gap begins, or at once within it; and only when it would come through half of that, for what
-// slides along a surface must not stick to it by a rounding.
+// The form stops at the beginning of the gap, or at once if it is within. It stops only if it would come through half
+// of the gap: a form that slides along a surface must not stick to it by a rounding.
 static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, double limit, fe__approach_hit *hit)
 {
     double tolerance = (double)GAP_TOLERANCE * s->gap, t = 0.0, clearance;
     fe__core_gap gap = *start;
     fe_dvec3 first = fe__approach_at(s, 0.0);
-    if (memcmp(&first, &s->position, sizeof first) != 0) fe__core_gap_of(s, first, &gap); // -0 became 0
+    if (memcmp(&first, &s->position, sizeof first) != 0) fe__core_gap_of(s, first, &gap); // A -0 has become 0.
     if (!advance(s, s->radius + s->gap, tolerance, fe__mind(limit, 1.0), &t, &gap) || !(t <= limit)) return 0;
     *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
     clearance = fe__mind(gap.distance - s->radius, s->gap);
@@ -140,13 +142,14 @@ fe_dvec3 fe__touching_point(const fe__approach *s, const fe__core_overlap *touch
     return are_boxes ? fe__boxes_touching_point(s, touch->way_out) : touch->gap.on_frame;
 }
 
+// ---- any cores -----------------------------------------------------------------------------------------------------
 // Forms that touch at the start meet at once or never. Being convex, they overlap from the start on if they overlap
-// anywhere on the way, and what slides along or leaves overlaps nowhere. The overlap may end soon, so the way is asked
-// at its end and at ever shorter parts of it.
+// anywhere on the way; a form that slides along or leaves overlaps nowhere. The overlap may end soon, so the test is
+// made at the end of the way and at ever shorter parts of it.
 static int32_t sweep_from_touch(const fe__approach *s, const fe__core_overlap *start, fe__approach_hit *hit)
 {
     enum { PARTS = 24 };
-    const double shorter = 0.25, deeper = 2.0; // in touches: the start may overlap by one
+    const double shorter = 0.25, deeper = 2.0; // `deeper` counts touches: the start may overlap by one.
     fe__approach later = *s;
     double t = 1.0;
     for (int32_t i = 0; i < PARTS; ++i, t *= shorter) {
@@ -165,22 +168,22 @@ int32_t fe__approach_sweep(const fe__approach *s, const fe__core_overlap *overla
     return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, &overlap->gap, limit, hit);
 }
 
+// ---- planes --------------------------------------------------------------------------------------------------------
 fe_dvec3 fe__point_of_plane(const fe__form *plane, fe_dvec3 unit, const fe__mover *mover)
 {
     const fe__axes *m = &mover->axes;
-    double half[3];
-    fe__core_half(mover->form, half);
-    fe_dvec3 low = fe__turn_back(m, unit), along = {low.x > 0.0   ? -half[0]
-                                                    : low.x < 0.0 ? half[0]
-                                                                  : 0.0,
-                                                    low.y > 0.0   ? -half[1]
-                                                    : low.y < 0.0 ? half[1]
-                                                                  : 0.0,
-                                                    low.z > 0.0   ? -half[2]
-                                                    : low.z < 0.0 ? half[2]
-                                                                  : 0.0};
-    if (fe__core_kind_of(mover->form) == FE_CORE_CURVED) along = fe__form_support(mover->form, fe__dscale(-1.0, low));
-    fe_dvec3 p = fe__dadd(mover->position, fe__turn(m, along)), n = fe__widen(plane->normal);
+    fe_dvec3 up = fe__turn_back(m, unit), lowest;
+    if (fe__core_kind_of(mover->form) == FE_CORE_CURVED) {
+        lowest = fe__form_support(mover->form, fe__dscale(-1.0, up));
+    } else {
+        // A core that lies across the normal on an axis has its middle there.
+        double half[3];
+        fe__core_half(mover->form, half);
+        lowest.x = up.x > 0.0 ? -half[0] : up.x < 0.0 ? half[0] : 0.0;
+        lowest.y = up.y > 0.0 ? -half[1] : up.y < 0.0 ? half[1] : 0.0;
+        lowest.z = up.z > 0.0 ? -half[2] : up.z < 0.0 ? half[2] : 0.0;
+    }
+    fe_dvec3 p = fe__dadd(mover->position, fe__turn(m, lowest)), n = fe__widen(plane->normal);
     double above = fe__ddot(unit, p) - (double)plane->distance / sqrt(fe__ddot(n, n));
     return fe__dsub(p, fe__dscale(above, unit));
 }
@@ -204,14 +207,15 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
     return 1;
 }
 
-// From the approach's frame to the standing form's.
+// ---- the sweep of a form -------------------------------------------------------------------------------------------
+// Turns a hit from the approach's frame into the standing form's.
 static void report(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h,
                    fe__sweep_hit *hit)
 {
     fe_dvec3 normal = h->normal, point = h->point;
     hit->t = h->t;
     if (swapped) {
-        // the nearest point of the still core is beyond the gap from the mover's; both lie on one line along the normal
+        // The nearest points of both cores lie on one line along the normal, with the gap between the forms.
         normal = fe__turn(&mover->axes, fe__dscale(-1.0, normal));
         point =
             fe__dadd(fe__dadd(mover->position, fe__dscale(h->t, mover->translation)), fe__turn(&mover->axes, point));
@@ -224,26 +228,23 @@ static void report(const fe__form *still, const fe__mover *mover, int32_t swappe
     if (fe__form_is_hull(still)) hit->triangle = fe__hull_face_at(still, point, normal);
 }
 
-// Half widths of a box around the origin of a form that holds its core, m
-static fe_dvec3 box_of_core(const fe__form *form)
-{
-    if (!fe__form_is_hull(form)) {
-        double half[3];
-        fe__core_half(form, half);
-        return (fe_dvec3){half[0], half[1], half[2]};
-    }
-    const fe__hull *hull = form->hull;
-    fe_dvec3 a = fe__from_hull(form, fe__widen(hull->low)), b = fe__from_hull(form, fe__widen(hull->high));
-    return (fe_dvec3){fe__maxd(fe__absd(a.x), fe__absd(b.x)), fe__maxd(fe__absd(a.y), fe__absd(b.y)),
-                      fe__maxd(fe__absd(a.z), fe__absd(b.z))};
-}
-
-// Of a hull, without asking for any distance
+// fe__hull_is_passed for the box that holds the mover's core: it needs no distance.
 static int32_t passes_hull(const fe__form *still, const fe__mover *mover, double limit, double *out_from)
 {
     const double per_scale = 1.0 / (double)still->scale,
                  clear = (double)mover->form->radius + 2.0 * fe__stop_gap(mover);
-    fe_dvec3 half = box_of_core(mover->form);
+    fe_dvec3 half; // half widths of the box around the mover's origin, m
+    if (fe__form_is_hull(mover->form)) {
+        const fe__hull *hull = mover->form->hull;
+        fe_dvec3 a = fe__from_hull(mover->form, fe__widen(hull->low)),
+                 b = fe__from_hull(mover->form, fe__widen(hull->high));
+        half = (fe_dvec3){fe__maxd(fe__absd(a.x), fe__absd(b.x)), fe__maxd(fe__absd(a.y), fe__absd(b.y)),
+                          fe__maxd(fe__absd(a.z), fe__absd(b.z))};
+    } else {
+        double core[3];
+        fe__core_half(mover->form, core);
+        half = (fe_dvec3){core[0], core[1], core[2]};
+    }
     fe__hull_passer p = {fe__in_hull(still, mover->position),
                          fe__dscale(per_scale, mover->translation),
                          {fe__dscale(per_scale * half.x, mover->axes.x), fe__dscale(per_scale * half.y, mover->axes.y),
@@ -277,9 +278,8 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     return 1;
 }
 
-// ---- sweep boxes ----------------------------------------------------------------------------------------------------
-// Two boxes, or a box and a triangle, one of them moving: a ray against their difference, which slabs
-// bound.
+// ---- boxes and triangles: separating axes ---------------------------------------------------------------------------
+// Two boxes, or a box and a triangle, one of them moving, are a ray against their difference, which slabs bound.
 //
 // The points by which box B's centre can be off A's while they overlap make a polytope whose faces lie across the axes
 // of A, those of B and the products of an axis of each (Gottschalk, Lin, Manocha 1996). Across a unit axis n,
@@ -288,11 +288,11 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
 // points) do as well. A triangle has one face and three edges, 13 axes in all, and its slabs are not centred.
 
 enum { BOX_AXES = 15, TRIANGLE_AXES = 13 };
-// Below this sine two edges are parallel and their product is no axis: what it would add is that small a part of their
+// Below this sine two edges are parallel and their product is no axis: it would add only so small a part of their
 // length.
 #define PARALLEL 1e-12
 
-// m, a direction's part along an axis that is none: edges and faces that lie across the normal
+// An edge or a face lies across the normal if no more of the normal is along it, m.
 #define LIES_ACROSS 1e-9
 
 static fe_dvec3 axis_of(const fe__axes *m, int32_t k) { return k == 0 ? m->x : k == 1 ? m->y : m->z; }
@@ -303,6 +303,7 @@ static int32_t axis_count(const fe__approach *s)
     return s->frame_kind == FE_CORE_TRIANGLE ? TRIANGLE_AXES : BOX_AXES;
 }
 
+// 0: the vector has no direction
 static int32_t make_unit(fe_dvec3 *n)
 {
     double length = sqrt(fe__ddot(*n, *n));
@@ -311,21 +312,7 @@ static int32_t make_unit(fe_dvec3 *n)
     return 1;
 }
 
-// A side of the triangle times an axis of the box. Near parallel ones leave a product of rounding: what of it lies
-// along them is taken off.
-static int32_t side_axis(const fe__approach *s, int32_t side, fe_dvec3 a, fe_dvec3 *n)
-{
-    fe_dvec3 e = fe__dsub(s->vertex[(side + 1) % 3], s->vertex[side]);
-    if (!make_unit(&e)) return 0;
-    *n = fe__dcross(e, a);
-    if (!make_unit(n)) return 0;
-    *n = fe__dsub(*n, fe__dscale(fe__ddot(*n, a), a));
-    *n = fe__dsub(*n, fe__dscale(fe__ddot(*n, e), e));
-    return make_unit(n);
-}
-
-// Axis `index`: faces of the frame, faces of the other, then edges. The product of an axis of the frame with another's
-// has no cancellation: it is exactly across both. 0: parallel edges.
+// Axis `index`: first faces of the frame, then faces of the other, then edges. 0: parallel edges
 static int32_t separating_axis(const fe__approach *s, int32_t index, fe_dvec3 *n)
 {
     int32_t triangle = s->frame_kind == FE_CORE_TRIANGLE, faces = triangle ? 1 : 3;
@@ -340,12 +327,22 @@ static int32_t separating_axis(const fe__approach *s, int32_t index, fe_dvec3 *n
     }
     fe_dvec3 a = axis_of(&s->axes, index % 3);
     int32_t k = index / 3 - 1;
-    if (triangle) return side_axis(s, k, a, n);
+    if (triangle) {
+        // The product of near parallel edges is rounding: its parts along them are taken off.
+        fe_dvec3 e = fe__dsub(s->vertex[(k + 1) % 3], s->vertex[k]);
+        if (!make_unit(&e)) return 0;
+        *n = fe__dcross(e, a);
+        if (!make_unit(n)) return 0;
+        *n = fe__dsub(*n, fe__dscale(fe__ddot(*n, a), a));
+        *n = fe__dsub(*n, fe__dscale(fe__ddot(*n, e), e));
+        return make_unit(n);
+    }
+    // The product with an axis of the frame has no cancellation: it is exactly across both.
     *n = k == 0 ? (fe_dvec3){0.0, -a.z, a.y} : k == 1 ? (fe_dvec3){a.z, 0.0, -a.x} : (fe_dvec3){-a.y, a.x, 0.0};
     return make_unit(n);
 }
 
-// Across n: half the width of both, and the middle of the frame's core.
+// Half the width of both cores along n, together; and the middle of the frame's core.
 static double extent(const fe__approach *s, fe_dvec3 n, double *middle)
 {
     fe_dvec3 m = fe__turn_back(&s->axes, n);
@@ -378,8 +375,9 @@ double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
     return depth;
 }
 
-// ---- where they touch -----------------------------------------------------------------------------------------------
-// What of a box lies farthest along a direction: a corner, an edge or a face, as a box with up to two free half widths.
+// ---- boxes and triangles: the touching point ------------------------------------------------------------------------
+// The part of a box that is farthest along a direction: a corner, an edge or a face, as a box with up to two free half
+// widths.
 typedef struct feature {
     fe_dvec3 centre;
     double free[3]; // half widths along the box's axes, 0: fixed
@@ -410,7 +408,7 @@ static fe_dvec3 clamp_to(const feature *f, fe_dvec3 p)
                                           fe__mind(fe__maxd(d.z, -f->free[2]), f->free[2])});
 }
 
-// Two edges: the nearest point on the frame's.
+// The point of the frame's edge nearest to the other one.
 static fe_dvec3 cross_edges(const fe__approach *s, const feature *of_frame, const feature *of_other, fe_dvec3 position)
 {
     fe_dvec3 e = unit(of_frame->free_axis), a = axis_of(&s->axes, of_other->free_axis);
@@ -420,18 +418,7 @@ static fe_dvec3 cross_edges(const fe__approach *s, const feature *of_frame, cons
     return clamp_to(of_frame, fe__dadd(of_frame->centre, fe__dscale(v, e)));
 }
 
-// The corners of a triangle that lie farthest along the normal, the first of them first.
-static int32_t corners_along(const fe__approach *s, fe_dvec3 normal, fe_dvec3 corner[3])
-{
-    double along[3], most = -(double)INFINITY;
-    for (int32_t i = 0; i < 3; ++i) along[i] = fe__ddot(normal, s->vertex[i]), most = fe__maxd(most, along[i]);
-    int32_t count = 0;
-    for (int32_t i = 0; i < 3; ++i) {
-        if (along[i] >= most - LIES_ACROSS) corner[count++] = s->vertex[i];
-    }
-    return count;
-}
-
+// The nearest point of the triangle, of one of its sides, or its corner.
 static fe_dvec3 clamp_to_corners(const fe__approach *s, const fe_dvec3 corner[3], int32_t count, fe_dvec3 p)
 {
     if (count == 3) return fe__nearest_on_triangle(s->vertex, s->normal, p);
@@ -445,8 +432,13 @@ static const int32_t clampings = 16;
 
 static fe_dvec3 touching_point_of_triangle(const fe__approach *s, fe_dvec3 position, fe_dvec3 normal)
 {
+    // The corners that lie farthest along the normal.
     fe_dvec3 corner[3];
-    int32_t count = corners_along(s, normal, corner);
+    double along[3], most = -(double)INFINITY;
+    int32_t count = 0;
+    for (int32_t i = 0; i < 3; ++i) along[i] = fe__ddot(normal, s->vertex[i]), most = fe__maxd(most, along[i]);
+    for (int32_t i = 0; i < 3; ++i)
+        if (along[i] >= most - LIES_ACROSS) corner[count++] = s->vertex[i];
     feature of_other = feature_along(s->other_half, fe__dscale(-1.0, fe__turn_back(&s->axes, normal)));
     fe_dvec3 centre = fe__dadd(position, fe__turn(&s->axes, of_other.centre));
     if (count == 2 && of_other.free_count == 1) {
@@ -466,7 +458,7 @@ static fe_dvec3 touching_point_of_triangle(const fe__approach *s, fe_dvec3 posit
 }
 
 // A point of both features, on the frame's. They lie in one plane across the normal: clamping to each in turn ends in
-// both (von Neumann).
+// both (von Neumann's alternating projections).
 static fe_dvec3 touching_point(const fe__approach *s, fe_dvec3 position, fe_dvec3 normal)
 {
     if (s->frame_kind == FE_CORE_TRIANGLE) return touching_point_of_triangle(s, position, normal);
@@ -481,19 +473,20 @@ static fe_dvec3 touching_point(const fe__approach *s, fe_dvec3 position, fe_dvec
     return p;
 }
 
-// ---- the sweep -----------------------------------------------------------------------------------------------------
+// ---- boxes and triangles: the sweep ---------------------------------------------------------------------------------
 typedef struct passage {
-    double enter, leave; // of the polytope itself: they decide
-    double stop;         // entry of the polytope with all its faces moved out by the gap
-    fe_dvec3 normal;     // of the face entered
+    double enter, leave; // t at which the ray enters and leaves the polytope: they decide
+    double stop;         // t at which it enters the polytope with all its faces moved out by the gap
+    fe_dvec3 normal;     // normal of the face that is entered
 } passage;
 
-// 0: outside of this slab for good, or after leaving another. What comes in by no more than a touch is outside.
+// 0: the ray is never in this slab, or only after it has left another. A ray that comes in by no more than a touch is
+// outside.
 static int32_t clip_to_slab(const fe__approach *s, fe_dvec3 n, passage *p)
 {
     double middle, e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle,
                    rate = fe__ddot(n, s->translation);
-    if (rate > 0.0) n = fe__dscale(-1.0, n), centre = -centre, rate = -rate; // n against the motion
+    if (rate > 0.0) n = fe__dscale(-1.0, n), centre = -centre, rate = -rate; // n is against the motion.
     double within = fe__maxd(e - s->touch, 0.0);
     if (rate == 0.0) return fe__absd(centre) <= within;
     double enter = (centre - within) / -rate, leave = (centre + within) / -rate;

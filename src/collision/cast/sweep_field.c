@@ -1,22 +1,22 @@
 // sweep_field.c - a moving form against a heightfield or a mesh: its triangles, piece by piece along the way.
 //
-// Input: queries, with the mover in the surface's frame. The tree of a mesh offers triangles along the way. On a
-// heightfield the way is cut where the form has moved by about its own size or a cell, so that few triangles lie under
-// each piece; what is met within a piece is met first of all. Vertices are doubles: a stop is as exact as before a box.
+// The queries give the mover in the surface's frame. The tree of a mesh offers triangles along the way. On a
+// heightfield the way is cut into pieces of about the form's size or a cell, so that few triangles lie under each
+// piece; a hit within a piece comes before all later ones. Vertices are doubles: a stop is as exact as before a box.
 #include "collision/cast/sweep_field.h"
 
 #include "collision/cast/mesh_ray.h"
 #include "collision/cast/sweep.h"
 #include "collision/form/form.h"
 
-// ---- sweep field ----------------------------------------------------------------------------------------------------
-
+// ---- the search -----------------------------------------------------------------------------------------------------
 // A normal that leans below a triangle by more than a rounding comes from under it.
 #define FROM_BELOW (-1e-9)
-#define ON_SIDE 1e-6 // m, a point that near to a side of a triangle is on it
+// A point that is so near to a side of a triangle is on it, m.
+#define ON_SIDE 1e-6
 
-// Of the form's farthest points both ways along an axis of the surface's frame, in the mover's
-static double reach_along(const fe__form *form, fe_dvec3 axis)
+// The half width, about the mover's origin, along an axis of the surface's frame, which is given in the mover's.
+static double half_width_along(const fe__form *form, fe_dvec3 axis)
 {
     fe_dvec3 back = fe__dscale(-1.0, axis);
     return fe__maxd(fe__ddot(axis, fe__form_support(form, axis)), fe__ddot(back, fe__form_support(form, back)));
@@ -26,9 +26,9 @@ static fe_dvec3 bounds_of(const fe__mover *mover)
 {
     if (fe__form_is_hull(mover->form)) {
         const fe__axes *a = &mover->axes;
-        return (fe_dvec3){reach_along(mover->form, (fe_dvec3){a->x.x, a->y.x, a->z.x}),
-                          reach_along(mover->form, (fe_dvec3){a->x.y, a->y.y, a->z.y}),
-                          reach_along(mover->form, (fe_dvec3){a->x.z, a->y.z, a->z.z})};
+        return (fe_dvec3){half_width_along(mover->form, (fe_dvec3){a->x.x, a->y.x, a->z.x}),
+                          half_width_along(mover->form, (fe_dvec3){a->x.y, a->y.y, a->z.y}),
+                          half_width_along(mover->form, (fe_dvec3){a->x.z, a->y.z, a->z.z})};
     }
     double half[3], r = (double)mover->form->radius;
     fe__core_half(mover->form, half);
@@ -88,8 +88,7 @@ int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
 }
 
 // ---- one triangle --------------------------------------------------------------------------------------------------
-// How far the mover reaches from its origin along the triangle's normal (side 1), or against it (-1), m; and the
-// origin's height at t over the triangle's plane.
+// How far the mover reaches from its origin along the triangle's normal (side 1), or against it (-1), m.
 static double reach_across(const fe__approach *p, double side)
 {
     fe_dvec3 m = fe__turn_back(&p->axes, p->normal), way = fe__dscale(side, m);
@@ -98,10 +97,10 @@ static double reach_across(const fe__approach *p, double side)
            p->radius;
 }
 
+// The height of the mover's origin at t over the triangle's plane, m.
 static double height_at(const fe__approach *p, double t)
 {
-    fe_dvec3 at = fe__dadd(p->position, fe__dscale(t, p->translation));
-    return fe__ddot(p->normal, fe__dsub(at, p->vertex[0]));
+    return fe__ddot(p->normal, fe__dsub(fe__approach_at(p, t), p->vertex[0]));
 }
 
 double fe__field_depth(const fe__field_search *s)
@@ -109,7 +108,7 @@ double fe__field_depth(const fe__field_search *s)
     return fe__maxd(reach_across(&s->pair, -1.0) - height_at(&s->pair, 0.0), 0.0);
 }
 
-// Is the point on a side behind which there is nothing?
+// Is the point on a side that is a rim?
 static int32_t is_on_rim(const fe__field_search *s, int32_t triangle, fe_dvec3 point)
 {
     fe_dvec3 v[3];
@@ -130,7 +129,7 @@ int32_t fe__field_is_met(const fe__field_search *s, int32_t triangle, const fe__
 
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
 
-// How far the core reaches along m, times m's length, in the surface's frame
+// How far the core reaches along m (surface's frame), times m's length.
 static double core_along(const fe__approach *p, fe_dvec3 m)
 {
     if (p->other_kind == FE_CORE_POINT) return 0.0;
@@ -139,7 +138,7 @@ static double core_along(const fe__approach *p, fe_dvec3 m)
     return p->other_half[0] * fe__absd(way.x) + p->other_half[1] * fe__absd(way.y) + p->other_half[2] * fe__absd(way.z);
 }
 
-// 1: until `limit` it is above the plane of the triangle or touches it, or is below it by more than any stop.
+// 1: up to `limit` the mover is above the triangle's plane or touches it, or it is below it by more than any stop.
 static int32_t stays_on_one_side(const fe__approach *p, double limit)
 {
     const fe_dvec3 *v = p->vertex, n = p->normal;
@@ -147,17 +146,17 @@ static int32_t stays_on_one_side(const fe__approach *p, double limit)
            spare = p->radius + 2.0 * p->gap;
     double start = height_at(p, 0.0), end = height_at(p, limit), lowest = fe__mind(start, end) - spare,
            highest = fe__maxd(start, end) + spare;
-    // The whole way counts: what comes below the plane behind the limit touches it now, and may be met.
+    // The whole way counts: a mover that comes below the plane behind the limit may touch it now, and may be met.
     if (fe__mind(start, height_at(p, 1.0)) - reach_across(p, -1.0) >= -p->touch) return 1;
     if (lowest > 0.0) return lowest - core_along(p, fe__dscale(-1.0, n)) > fe__maxd(fe__maxd(b, c), 0.0);
     if (highest < 0.0) return highest + core_along(p, n) < fe__mind(fe__mind(b, c), 0.0);
     return 0;
 }
 
-// The planes through a side and along the way: beyond one of them, by more than any stop, nothing is met
+// 1: the mover is beyond a plane through a side and along the way, by more than any stop, and meets nothing.
 static int32_t passes_beside(const fe__approach *p)
 {
-    const double rounding = 1e-14; // of the lengths involved
+    const double rounding = 1e-14; // share of the lengths involved
     const fe_dvec3 *v = p->vertex;
     double clear = p->radius + 2.0 * p->gap;
     for (int32_t i = 0; i < 3; ++i) {
@@ -173,7 +172,8 @@ static int32_t passes_beside(const fe__approach *p)
     return 0;
 }
 
-// Of a start inside the deepest triangle is told; of hits the first. Of equal ones the triangle with the lowest number.
+// Takes a triangle into the result. If the mover starts inside, the result is the deepest triangle, else the first hit;
+// of equal ones it is the triangle with the lowest number.
 static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *best)
 {
     int32_t number = fe__ground_number(s->surface, triangle);
@@ -233,18 +233,7 @@ static double visit_triangle(void *context, int32_t triangle)
     return f->hit->t;
 }
 
-// A mesh's tree offers its triangles along the way, the nearest first; what stands still asks as an overlap does.
-static void sweep_mesh(fe__field_search *s, double limit, fe__sweep_hit *hit)
-{
-    const fe__mesh_casts *casts = s->surface->casts ? s->surface->casts : &FE_BASE_SET(fe__mesh_casts);
-    double spare = 2.0 * s->pair.gap;
-    fe__mesh_way way = {s->mover->position,
-                        s->mover->translation,
-                        {s->half.x + spare, s->half.y + spare, s->half.z + spare}};
-    field_sweep f = {s, hit};
-    casts->sweep(s->surface->mesh, &way, limit, visit_triangle, &f);
-}
-
+// Walks the triangles under one piece of the way after the other.
 static void sweep_pieces(fe__field_search *s, double t, double end, fe__sweep_hit *hit)
 {
     const fe__mover *mover = s->mover;
@@ -255,7 +244,7 @@ static void sweep_pieces(fe__field_search *s, double t, double end, fe__sweep_hi
     double cells = fe__maxd(fe__maxd(cells_x, cells_y), cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
     for (;;) {
         double to = fe__mind(t + piece, end);
-        if (!(to > t)) to = end; // a piece below the rounding of t
+        if (!(to > t)) to = end; // The piece is below the rounding of t.
         fe__bounds box = fe__field_covered(s, t, to);
         fe__ground_walk walk;
         fe__ground_begin(&walk, s->surface, &box, mover->position);
@@ -272,35 +261,40 @@ int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, doub
     if (!fe__field_clip(&s, limit, &t, &end)) return 0;
     *hit = (fe__sweep_hit){.t = limit, .triangle = -1};
     fe_dvec3 way = mover->translation;
-    if (surface->mesh && fe__maxd(fe__maxd(fe__absd(way.x), fe__absd(way.y)), fe__absd(way.z)) > FE__MESH_STILL)
-        sweep_mesh(&s, limit, hit);
-    else
+    if (surface->mesh && fe__maxd(fe__maxd(fe__absd(way.x), fe__absd(way.y)), fe__absd(way.z)) > FE__MESH_STILL) {
+        // The tree of a mesh offers its triangles along the way, the nearest first.
+        const fe__mesh_casts *casts = surface->casts ? surface->casts : &FE_BASE_SET(fe__mesh_casts);
+        double spare = 2.0 * s.pair.gap;
+        fe__mesh_way box = {mover->position, way, {s.half.x + spare, s.half.y + spare, s.half.z + spare}};
+        field_sweep context = {&s, hit};
+        casts->sweep(surface->mesh, &box, limit, visit_triangle, &context);
+    } else {
         sweep_pieces(&s, t, end, hit);
+    }
     if (hit->triangle < 0) return 0;
-    if (hit->inside) fe__field_way_out(&s, hit);
+    if (hit->inside) fe__field_depenetrate(&s, hit);
     return 1;
 }
 
-// ---- way out --------------------------------------------------------------------------------------------------------
-// The way out of a heightfield or a mesh for a form that overlaps it.
-//
-// A surface of triangles has no inside that would tell: candidates are tried. A candidate is a direction; how far it
-// leads is found by coming back along it, from where the form is free, to the first touch. That touch must be one from
-// the side that counts. Candidates are the normals of the triangles that are overlapped, the ways out of each of them
-// alone, and the least translation that satisfies all of either kind at once, as in a corner (Hildreth 1957).
+// ---- depenetration: the candidates ----------------------------------------------------------------------------------
+// A surface of triangles has no inside from which a way out would follow: candidates are tried. A candidate is a
+// direction. Its length is found by coming back along it, from a place where the form is free, to the first touch,
+// which must be from the side that counts. Candidates are the normals of the triangles that are overlapped, the ways
+// out of each of them alone, and the least translation that satisfies all of either kind at once, as in a corner
+// (Hildreth, A quadratic programming procedure, 1957).
 
 enum {
-    MOST_WAYS = 16,  // of each kind; alike ones are one
-    LEAST_TRIES = 3, // however many triangles there are
-    WORK = 2048,     // triangles that are looked at, all tries together
-    PASSES = 64,     // of the least translation
-    DOUBLINGS = 4    // of how far the deepest triangle says, until a way parts the two
+    MOST_WAYS = 16,  // Each kind has at most so many candidates; alike ones are one.
+    LEAST_TRIES = 3, // So many are tried, however many triangles there are.
+    WORK = 2048,     // All tries together look at about so many triangles.
+    PASSES = 64,     // The least translation takes so many passes.
+    DOUBLINGS = 4    // The greatest depth is doubled so often, until a way parts the two.
 };
-#define SAME_WAY 0.9998 // cosine: a degree
+#define SAME_WAY 0.9998 // cosine of a degree
 
 typedef struct way {
     fe_dvec3 direction; // unit
-    double length;      // m, at least
+    double length;      // least length, m
 } way;
 
 typedef struct ways {
@@ -319,9 +313,9 @@ static void add_way(ways *w, fe_dvec3 direction, double length)
 }
 
 typedef struct overlaps {
-    ways planes, alone; // over the planes of triangles; out of triangles alone
-    int32_t count;      // of triangles that are looked at
-    double least;       // m: the longest way out of one alone; no translation that parts all is shorter
+    ways planes, alone; // ways over the planes of triangles; ways out of each triangle alone
+    int32_t count;      // number of triangles in the mover's bounds
+    double least;       // longest way out of one triangle, m: no translation that parts all is shorter
 } overlaps;
 
 static void gather(fe__field_search *s, overlaps *all)
@@ -337,7 +331,7 @@ static void gather(fe__field_search *s, overlaps *all)
         if (!fe__is_inside(&s->pair, &o)) continue;
         all->least = fe__maxd(all->least, o.depth);
         add_way(&all->planes, s->pair.normal, fe__field_depth(s));
-        const double rounding = 1e-9; // of a way's length; cores that just touch have none
+        const double rounding = 1e-9; // share of a way's length; cores that just touch have no way out
         if (fe__absd(fe__ddot(o.way_out, o.way_out) - 1.0) < rounding &&
             (is_two_sided || fe__ddot(o.way_out, s->pair.normal) >= 0.0))
             add_way(&all->alone, o.way_out, o.depth);
@@ -346,7 +340,8 @@ static void gather(fe__field_search *s, overlaps *all)
     }
 }
 
-// The least x with direction . x >= length for all ways: x = sum_i pull_i direction_i, pull_i >= 0, each pull in turn
+// The least x with direction . x >= length for all ways: x = sum_i pull_i direction_i, pull_i >= 0. Hildreth's method
+// changes one pull after the other.
 static fe_dvec3 least_translation(const ways *w)
 {
     double pull[MOST_WAYS] = {0.0};
@@ -362,9 +357,9 @@ static fe_dvec3 least_translation(const ways *w)
     return x;
 }
 
-// ---- one candidate -------------------------------------------------------------------------------------------------
-// How far out along `direction` the mover is free, coming back from `length`; infinite when it is not free there, or
-// was on the wrong side.
+// ---- depenetration: the trials -------------------------------------------------------------------------------------
+// The distance along `direction` at which the mover is free, found by coming back from `length`. It is infinite if the
+// mover is not free there, or was on the wrong side.
 static double way_along(const fe__field_search *from, fe_dvec3 direction, double length)
 {
     fe__mover mover = *from->mover;
@@ -390,14 +385,15 @@ static double way_along(const fe__field_search *from, fe_dvec3 direction, double
 typedef struct trial {
     const fe__field_search *search;
     fe__sweep_hit *best;
-    double least;         // m: what is no longer ends the search
-    int32_t parts, tries; // does the best part the two? how many may follow when it does
+    double least;  // A way that is no longer ends the search, m.
+    int32_t parts; // The best way parts the two.
+    int32_t tries; // So many trials may follow then.
 } trial;
 
-// A little farther than needed, so that it is free there
+// The way begins a little farther out than needed, so that the mover is free there.
 static void try_way(trial *t, fe_dvec3 direction, double length)
 {
-    const double spare = 1e-6, share = 1e-6; // m; of the length
+    const double spare = 1e-6, share = 1e-6; // m; share of the length
     if (t->parts && t->tries <= 0) return;
     t->tries -= 1;
     double from = t->parts ? fe__mind(length, t->best->depth) : length;
@@ -414,12 +410,7 @@ static void try_translation(trial *t, fe_dvec3 x)
     if (length > 0.0) try_way(t, fe__dscale(1.0 / length, x), length);
 }
 
-static void try_ways(trial *t, const ways *w, double length)
-{
-    for (int32_t i = 0; i < w->count; ++i) try_way(t, w->way[i].direction, length);
-}
-
-void fe__field_way_out(const fe__field_search *search, fe__sweep_hit *hit)
+void fe__field_depenetrate(const fe__field_search *search, fe__sweep_hit *hit)
 {
     fe__field_search s = *search;
     overlaps all = {0};
@@ -431,7 +422,7 @@ void fe__field_way_out(const fe__field_search *search, fe__sweep_hit *hit)
     try_translation(&t, least_translation(&all.planes));
     double length = fe__maxd(hit->depth, all.least);
     for (int32_t i = 0; i < DOUBLINGS && !(i && t.parts); ++i, length += length) {
-        try_ways(&t, &all.alone, length);
-        try_ways(&t, &all.planes, length);
+        for (int32_t k = 0; k < all.alone.count; ++k) try_way(&t, all.alone.way[k].direction, length);
+        for (int32_t k = 0; k < all.planes.count; ++k) try_way(&t, all.planes.way[k].direction, length);
     }
 }

@@ -1,15 +1,4 @@
-// turning.c - see turning.h.
-//
-// Conservative advancement (Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, 2.3) with a bound of
-// second order. Across a unit n, from what stands to what moves, planes hold the two apart by
-//   g(t) = min over the mover's points p of n . p(t)  -  max over the standing form's points q of n . q
-// which is never more than their distance. With the turn w about c + t d,
-//   n . p(t) = n . (c + t d) + n . R(t w) r,   |n . p''(t)| <= M = |w|^2 |n x axis| reach.
-// A function f with f'' <= M lies above its chord less a parabola. So does the least of many: between t and t + s, at
-// t + x s,
-//   g >= (1 - x) g(t) + x g(t + s) - c x (1 - x),   c = M s^2 / 2
-// and up to the first zero of the right side nothing is met, however thin. The approach to a touch is quadratic, past
-// one it is by shares; no step is shorter than (2 g / M)^(1/2), and the gap gives g a least value.
+// turning.c - the rotational sweep: conservative advancement with a bound of second order; see turning.h.
 #include "collision/cast/turning.h"
 
 #include "collision/cast/cast_kinds.h"
@@ -18,21 +7,31 @@
 #include "collision/form/form.h"
 #include "core/math.h"
 
-// ---- turning --------------------------------------------------------------------------------------------------------
+// The method is conservative advancement (Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, 2.3).
+// Across a unit n, from the standing to the moving form, planes hold the two apart by
+//   g(t) = min over the mover's points p of n . p(t)  -  max over the standing form's points q of n . q
+// which is never more than their distance. With the turn w about c + t d,
+//   n . p(t) = n . (c + t d) + n . R(t w) r,   |n . p''(t)| <= M = |w|^2 |n x axis| reach.
+// A function f with f'' <= M lies above its chord less a parabola. So does the least of many: between t and t + s, at
+// t + x s,
+//   g >= (1 - x) g(t) + x g(t + s) - c x (1 - x),   c = M s^2 / 2
+// and up to the first zero of the right side nothing is met, however thin. The approach to a touch is quadratic; past a
+// touch each step leaves a share of the way. No step is shorter than (2 g / M)^(1/2), and the gap gives g a least
+// value.
 
 enum {
-    MOST_STEPS = 16384, // three turns' worth of the shortest steps; what takes longer is taken for a touch
-    MOST_LOOKS = 8      // ahead, along one direction
+    MOST_STEPS = 16384, // The shortest steps make three turns; a motion that needs more counts as a touch.
+    MOST_LOOKAHEADS = 8 // So often is g computed ahead along one direction.
 };
-#define TOLERANCE 0.1 // of the gap: a stop within that of it is one
-#define FARTHER 4.0   // a look ahead, against what is known to be safe
-#define NEARER 1.5    // the same, once the end of what is safe has been seen
-#define LEFT 2.0      // gaps: what is farther off again has not touched
+#define TOLERANCE 0.1 // A stop is accepted if it misses the gap by no more than this share of it.
+#define FARTHER 4.0   // The next lookahead is so many times the way that is known to be safe.
+#define NEARER 1.5    // It is so many times if the end of the safe way has been seen.
+#define LEFT 2.0      // A form that is so many gaps off again has not touched.
 
 // ---- the mover -----------------------------------------------------------------------------------------------------
 double fe__reach_across(const fe__form *form, fe_dvec3 axis)
 {
-    const double rounding = 1.000001; // a reach is a float
+    const double rounding = 1.000001; // The bounding radius is a float.
     if (fe__form_is_hull(form)) return rounding * (double)fe__form_reach(form, fe__vec3(0.0f, 0.0f, 0.0f));
     double half[3], most = 0.0;
     fe__core_half(form, half);
@@ -70,14 +69,15 @@ static fe_dvec3 turned(fe_dvec3 k, double sine, double cosine, fe_dvec3 a)
 
 fe__mover fe__turning_at(const fe__turning *way, double t)
 {
-    fe__mover now = *way->mover;
+    fe__mover moved = *way->mover;
     double sine, cosine;
     fe__sincos(t * way->angle, &sine, &cosine);
-    now.position = fe__dadd(now.position, fe__dscale(t, now.translation));
-    now.axes = (fe__axes){turned(way->axis, sine, cosine, now.axes.x), turned(way->axis, sine, cosine, now.axes.y),
-                          turned(way->axis, sine, cosine, now.axes.z)};
-    now.turn = (fe_dvec3){0.0, 0.0, 0.0};
-    return now;
+    moved.position = fe__dadd(moved.position, fe__dscale(t, moved.translation));
+    moved.axes =
+        (fe__axes){turned(way->axis, sine, cosine, moved.axes.x), turned(way->axis, sine, cosine, moved.axes.y),
+                   turned(way->axis, sine, cosine, moved.axes.z)};
+    moved.turn = (fe_dvec3){0.0, 0.0, 0.0};
+    return moved;
 }
 
 double fe__turning_speed(const fe__turning *way)
@@ -86,50 +86,52 @@ double fe__turning_speed(const fe__turning *way)
     return sqrt(fe__ddot(d, d)) + way->angle * way->reach;
 }
 
-// ---- what stands ---------------------------------------------------------------------------------------------------
+// ---- the advancement -----------------------------------------------------------------------------------------------
+// A turning form and the standing one: the frame of `pair` or, if it is not NULL, a plane.
 typedef struct encounter {
     const fe__turning *way;
     fe__approach *pair;
     const fe__form *plane;
 } encounter;
 
+// g(t) across n.
 static double separation(const encounter *e, double t, fe_dvec3 n)
 {
-    fe__mover now = fe__turning_at(e->way, t);
-    if (e->plane) return fe__height_over_plane(e->plane, &now);
-    e->pair->axes = now.axes;
-    return fe__separation_of(e->pair, now.position, n) - e->pair->radius;
+    fe__mover moved = fe__turning_at(e->way, t);
+    if (e->plane) return fe__height_over_plane(e->plane, &moved);
+    e->pair->axes = moved.axes;
+    return fe__separation_of(e->pair, moved.position, n) - e->pair->radius;
 }
 
-// Across the nearest points' direction at t, which comes into `here` with the point: how far planes hold the two apart,
-// m; below 0 by no more than a touch. 0: they overlap, `here` stays
-static int32_t look(const encounter *e, double t, double *distance, fe__approach_hit *here)
+// Finds the direction of the nearest points at t, which comes into `here` with the point, and g(t) across it, m; it is
+// below 0 by no more than a touch. 0: the forms overlap, `here` stays
+static int32_t find_gap(const encounter *e, double t, double *distance, fe__approach_hit *here)
 {
-    fe__mover now = fe__turning_at(e->way, t);
+    fe__mover moved = fe__turning_at(e->way, t);
     if (e->plane) {
         fe_dvec3 n = fe__widen(e->plane->normal);
-        *distance = fe__height_over_plane(e->plane, &now);
-        *here = (fe__approach_hit){t, fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n), now.position};
-        return *distance >= -fe__touch_of(&now);
+        *distance = fe__height_over_plane(e->plane, &moved);
+        *here = (fe__approach_hit){t, fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n), moved.position};
+        return *distance >= -fe__touch_of(&moved);
     }
     fe__core_gap gap;
-    e->pair->axes = now.axes;
-    (void)fe__sure_gap_of(e->pair, now.position, &gap);
+    e->pair->axes = moved.axes;
+    (void)fe__sure_gap_of(e->pair, moved.position, &gap);
     if (gap.distance > 0.0) {
         fe__approach_hit nearest = {t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
-        *distance = fe__separation_of(e->pair, now.position, nearest.normal) - e->pair->radius;
-        if (*distance >= -fe__touch_of(&now)) {
+        *distance = fe__separation_of(e->pair, moved.position, nearest.normal) - e->pair->radius;
+        if (*distance >= -fe__touch_of(&moved)) {
             *here = nearest;
             return 1;
         }
     }
-    // Rounding alone gives the direction between nearest points that all but meet.
-    fe__approach there = *e->pair;
-    there.position = now.position;
-    fe__core_overlap overlap = fe__approach_overlap(&there);
+    // Rounding makes the direction between nearest points that all but meet.
+    fe__approach pair = *e->pair;
+    pair.position = moved.position;
+    fe__core_overlap overlap = fe__approach_overlap(&pair);
     *distance = -overlap.depth;
-    if (fe__is_inside(&there, &overlap)) return 0;
-    *here = (fe__approach_hit){t, overlap.way_out, fe__touching_point(&there, &overlap)};
+    if (fe__is_inside(&pair, &overlap)) return 0;
+    *here = (fe__approach_hit){t, overlap.way_out, fe__touching_point(&pair, &overlap)};
     return 1;
 }
 
@@ -141,7 +143,7 @@ static double first_zero(double at_0, double at_1, double c)
     return fe__mind(2.0 * at_0 / (sqrt(square) - b), 1.0);
 }
 
-// From here, where they are farther apart than `goal`: for how long they stay so, at least.
+// The forms are farther apart than `goal` at here->t. Returns how long they surely stay so.
 static double safe_way(const encounter *e, const fe__approach_hit *here, double distance, double goal, double end)
 {
     const fe__turning *way = e->way;
@@ -150,7 +152,7 @@ static double safe_way(const encounter *e, const fe__approach_hit *here, double 
     double speed = turning - fe__ddot(n, way->mover->translation), bend = 0.5 * way->angle * turning, rest = end - t;
     if (!(speed * rest > slack)) return rest;
     double safe = slack / speed, ratio = FARTHER;
-    for (int32_t i = 0; i < MOST_LOOKS && safe < rest; ++i) {
+    for (int32_t i = 0; i < MOST_LOOKAHEADS && safe < rest; ++i) {
         double ahead = fe__mind(ratio * safe, rest);
         double x = first_zero(slack, separation(e, t + ahead, n) - goal, bend * ahead * ahead);
         if (x < 1.0) ratio = NEARER;
@@ -165,7 +167,7 @@ int32_t fe__turning_stays_beyond(const fe__turning *way, fe__approach *pair, fe_
     const encounter e = {way, pair, NULL};
     const double touch = fe__touch_of(way->mover);
     fe__approach_hit here = {from, n, way->mover->position};
-    for (int32_t i = 0; i < MOST_LOOKS; ++i) {
+    for (int32_t i = 0; i < MOST_LOOKAHEADS; ++i) {
         double distance = separation(&e, here.t, n);
         if (!(distance >= -0.5 * touch)) return 0;
         here.t += safe_way(&e, &here, distance, -touch, 1.0);
@@ -174,19 +176,19 @@ int32_t fe__turning_stays_beyond(const fe__turning *way, fe__approach *pair, fe_
     return 0;
 }
 
-// Does what touches at *t, across here's normal, come nearer by half a touch before `until`? Else *t is when it is
-// well apart, or `until`. The planes across the normal hold apart what slides along them; where other features come to
-// face each other, those across the nearest points' direction do.
+// The forms touch at *t, across here's normal. Do they come nearer by half a touch before `until`? If not, *t becomes
+// the time when they are well apart, or `until`. The planes across the normal hold apart forms that slide along them;
+// if other features come to face each other, the planes across the nearest points' direction do.
 static int32_t comes_nearer(const encounter *e, fe__approach_hit here, double until, double *t)
 {
     const double touch = fe__touch_of(e->way->mover);
     double distance = separation(e, *t, here.normal), goal = fe__mind(distance, 0.0) - 0.5 * touch;
     for (int32_t i = 0; distance <= LEFT * e->way->gap; ++i) {
         int32_t is_near = distance <= goal + TOLERANCE * touch;
-        if (is_near && (!look(e, *t, &distance, &here) || distance <= goal + TOLERANCE * touch)) return 1;
+        if (is_near && (!find_gap(e, *t, &distance, &here) || distance <= goal + TOLERANCE * touch)) return 1;
         here.t = *t;
         double step = safe_way(e, &here, distance, goal, until);
-        if (*t + step <= *t || i == MOST_STEPS) return 1; // below the rounding of t, or for too long
+        if (*t + step <= *t || i == MOST_STEPS) return 1; // The step is below the rounding of t, or it takes too long.
         *t = fe__mind(*t + step, until);
         if (*t >= until) return 0;
         distance = separation(e, *t, here.normal);
@@ -194,8 +196,9 @@ static int32_t comes_nearer(const encounter *e, fe__approach_hit here, double un
     return 0;
 }
 
-// Where the gap begins, or at once within it; and only what comes on through half of that is met, for what slides along
-// a surface must not stick to it by a rounding. What leaves the gap again has met nothing.
+// The hit is at the beginning of the gap, or at once within it. It counts only if the mover comes on through half of
+// the gap: a form that slides along a surface must not stick to it by a rounding. A mover that leaves the gap again has
+// met nothing.
 int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__form *plane, double from, double until,
                           fe__approach_hit *hit)
 {
@@ -204,7 +207,7 @@ int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__
     double t = from, goal = way->gap, clearance = way->gap, distance;
     int32_t entered = 0, met = 0;
     for (int32_t i = 0; !met; ++i) {
-        int32_t apart = look(&e, t, &distance, &here);
+        int32_t apart = find_gap(&e, t, &distance, &here);
         if (!entered && apart && distance <= fe__touch_of(way->mover)) {
             double later = t;
             met = comes_nearer(&e, here, until, &later);
@@ -222,7 +225,7 @@ int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__
         met = entered && (!apart || distance <= goal + TOLERANCE * clearance || i >= MOST_STEPS);
         double end = entered ? 1.0 : until, step = met ? 0.0 : safe_way(&e, &here, distance, goal, end);
         if (!met && step >= end - t) return 0;
-        met |= !met && t + step <= t; // below the rounding of t
+        met |= !met && t + step <= t; // The step is below the rounding of t.
         t += step;
     }
     if (pair) pair->axes = fe__turning_at(way, hit->t).axes;
@@ -235,7 +238,7 @@ int32_t fe__form_turn(const fe__form *still, const fe__mover *mover, double limi
     fe__turning way = fe__turning_of(mover);
     fe__mover start = fe__turning_at(&way, 0.0);
     start.translation = (fe_dvec3){0.0, 0.0, 0.0};
-    if (fe__form_sweep(still, &start, limit, hit)) return 1; // inside
+    if (fe__form_sweep(still, &start, limit, hit)) return 1; // The forms overlap at the start.
     int32_t unbounded = fe__form_is_unbounded(still);
     fe__approach pair = {.frame_kind = fe__core_kind_of(still),
                          .other_kind = fe__core_kind_of(mover->form),
@@ -254,34 +257,32 @@ int32_t fe__form_turn(const fe__form *still, const fe__mover *mover, double limi
     return 1;
 }
 
-// ---- turning field --------------------------------------------------------------------------------------------------
-// A form that moves and turns, against a heightfield or a mesh: its triangles, piece by piece.
-//
-// The motion is cut where no point has gone farther than the form's size and a cell, so that few triangles lie under
-// each piece. A triangle that is met from the side that does not count lets the form pass, and counts again when the
-// form has left it: a turn may bring it back.
+// ---- a heightfield or a mesh ---------------------------------------------------------------------------------------
+// The motion is cut into pieces in which no point goes farther than the form's size and a cell, so that few triangles
+// lie under each piece. A triangle that is met from the side that does not count lets the form pass, and counts again
+// when the form has left it: a turn may bring it back.
 
-// of the form's reach: how closely is looked for where it leaves a triangle that it passes
+// Steps of this share of the form's bounding radius find the time at which it leaves a triangle that it passes.
 #define PASSING 1e-3
 
 typedef struct field_turn {
     fe__field_search search;
     fe__turning way;
-    double reach; // from the form's origin, m
+    double radius; // bounding radius about the form's origin, m
 } field_turn;
 
 static double distance_at(field_turn *f, double t)
 {
-    fe__mover now = fe__turning_at(&f->way, t);
+    fe__mover moved = fe__turning_at(&f->way, t);
     fe__core_gap gap;
-    f->search.pair.axes = now.axes;
-    return fe__sure_gap_of(&f->search.pair, now.position, &gap) - f->search.pair.radius;
+    f->search.pair.axes = moved.axes;
+    return fe__sure_gap_of(&f->search.pair, moved.position, &gap) - f->search.pair.radius;
 }
 
-// From t on, where they touch or overlap: when they are apart again, at `*t`. 0: not before `until`
+// The forms touch or overlap at *t, which becomes the time when they are apart again. 0: not before `until`
 static int32_t pass(field_turn *f, double until, double *t)
 {
-    double step = PASSING * f->reach / fe__turning_speed(&f->way);
+    double step = PASSING * f->radius / fe__turning_speed(&f->way);
     do {
         *t += step;
         if (!(*t < until)) return 0;
@@ -289,7 +290,7 @@ static int32_t pass(field_turn *f, double until, double *t)
     return 1;
 }
 
-// Of equal hits the triangle with the lowest number.
+// The lowest number wins between triangles that are hit at the same time.
 static void meet_triangle(field_turn *f, int32_t triangle, double from, double until, fe__sweep_hit *best)
 {
     fe__field_search *s = &f->search;
@@ -311,36 +312,36 @@ static void meet_triangle(field_turn *f, int32_t triangle, double from, double u
     }
 }
 
-// Widths of a box around the mover's origin that holds it from t0 to t1, but for what the origin moves
+// Half widths of a box around the mover's origin that holds the turning form from t0 to t1.
 static fe_dvec3 half_between(const field_turn *f, double t0, double t1)
 {
-    fe__mover now = fe__turning_at(&f->way, 0.5 * (t0 + t1));
-    fe__field_search there = fe__field_search_of(f->search.surface, &now);
+    fe__mover moved = fe__turning_at(&f->way, 0.5 * (t0 + t1));
+    fe_dvec3 half = fe__field_search_of(f->search.surface, &moved).half;
     double arc = 0.5 * (t1 - t0) * f->way.angle * f->way.reach;
-    return (fe_dvec3){fe__mind(there.half.x + arc, f->reach), fe__mind(there.half.y + arc, f->reach),
-                      fe__mind(there.half.z + arc, f->reach)};
+    return (fe_dvec3){fe__mind(half.x + arc, f->radius), fe__mind(half.y + arc, f->radius),
+                      fe__mind(half.z + arc, f->radius)};
 }
 
 int32_t fe__ground_turn(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
-    const double rounding = 1.000001; // a reach is a float
+    const double rounding = 1.000001; // The bounding radius is a float.
     field_turn f = {.search = fe__field_search_of(surface, mover), .way = fe__turning_of(mover)};
-    f.reach = rounding * (double)fe__form_reach(mover->form, fe__vec3(0.0f, 0.0f, 0.0f));
+    f.radius = rounding * (double)fe__form_reach(mover->form, fe__vec3(0.0f, 0.0f, 0.0f));
     fe__mover start = fe__turning_at(&f.way, 0.0);
     start.translation = (fe_dvec3){0.0, 0.0, 0.0};
-    if (fe__ground_sweep(surface, &start, limit, hit)) return 1; // inside
+    if (fe__ground_sweep(surface, &start, limit, hit)) return 1; // The form overlaps the surface at the start.
     f.search.pair.gap = f.way.gap;
-    f.search.half = (fe_dvec3){f.reach, f.reach, f.reach};
+    f.search.half = (fe_dvec3){f.radius, f.radius, f.radius};
     double t, end;
     if (!fe__field_clip(&f.search, limit, &t, &end)) return 0;
     fe_dvec3 cell = fe__ground_cell(surface), d = mover->translation;
-    double arc = f.way.angle * f.way.reach, cells_x = (fe__absd(d.x) + arc) / (cell.x + f.reach),
-           cells_y = (fe__absd(d.y) + arc) / (cell.y + f.reach), cells_z = (fe__absd(d.z) + arc) / (cell.z + f.reach),
+    double arc = f.way.angle * f.way.reach, cells_x = (fe__absd(d.x) + arc) / (cell.x + f.radius),
+           cells_y = (fe__absd(d.y) + arc) / (cell.y + f.radius), cells_z = (fe__absd(d.z) + arc) / (cell.z + f.radius),
            cells = fe__maxd(fe__maxd(cells_x, cells_y), cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
     *hit = (fe__sweep_hit){.t = limit, .triangle = -1};
     for (;;) {
         double to = fe__mind(t + piece, end);
-        if (!(to > t)) to = end; // a piece below the rounding of t
+        if (!(to > t)) to = end; // The piece is below the rounding of t.
         f.search.half = half_between(&f, t, to);
         fe__bounds box = fe__field_covered(&f.search, t, to);
         fe__ground_walk walk;

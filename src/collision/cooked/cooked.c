@@ -1,4 +1,4 @@
-// cooked.c - refusals and single numbers; see cooked.h.
+// cooked.c - refusals, single numbers, materials and heightfields as bytes; see cooked.h.
 #include "collision/cooked/cooked.h"
 
 #include "core/bytes.h"
@@ -6,8 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-// ---- cooked ---------------------------------------------------------------------------------------------------------
-
+// ---- refusals and numbers -------------------------------------------------------------------------------------------
 int32_t fe__cooked_refuse(fe__cooked *c, const unsigned char *at, const char *format, ...)
 {
     c->result = FE_ERROR_DATA;
@@ -31,12 +30,11 @@ int32_t fe__cooked_float(fe__cooked *c, const char *name, float low, float high,
 {
     const unsigned char *at = c->at;
     *out = fe__take_float(&c->at);
-    if (*out >= low && *out <= high) return 1; // no NaN
+    if (*out >= low && *out <= high) return 1; // A NaN is refused, too.
     return fe__cooked_refuse(c, at, "%s is %.9g, must be %.9g..%.9g", name, (double)*out, (double)low, (double)high);
 }
 
-// ---- material -------------------------------------------------------------------------------------------------------
-// Materials as bytes; see cooked.h.
+// ---- materials ------------------------------------------------------------------------------------------------------
 
 unsigned char *fe__cooked_material_write(const fe_material *m, unsigned char *out)
 {
@@ -69,14 +67,14 @@ int32_t fe__cooked_material_read(fe__cooked *c, int32_t index, fe_material *out)
 {
     *out = (fe_material){0};
     if (read_fields(c, out)) return 1;
+    // The sentence names the material, too.
     char why[FE__COOKED_SENTENCE];
     memcpy(why, c->sentence, sizeof why);
     snprintf(c->sentence, sizeof c->sentence, "material %d, %.120s", (int)index, why);
     return 0;
 }
 
-// ---- heightfield ----------------------------------------------------------------------------------------------------
-// Heightfields as bytes; see cooked.h.
+// ---- heightfields ---------------------------------------------------------------------------------------------------
 
 static int64_t sample_count(const fe__heightfield *f) { return (int64_t)f->rows * f->columns; }
 static int64_t cell_count(const fe__heightfield *f) { return (int64_t)(f->rows - 1) * (f->columns - 1); }
@@ -89,7 +87,7 @@ int64_t fe__cooked_field_size(const fe__heightfield *f)
 unsigned char *fe__cooked_field_write(const fe__heightfield *f, unsigned char *out)
 {
     out = fe__put_i32(fe__put_i32(out, f->rows), f->columns);
-    out = fe__put_float(fe__put_float(out, (float)f->cell_x), (float)f->cell_z); // as which they were given
+    out = fe__put_float(fe__put_float(out, (float)f->cell_x), (float)f->cell_z); // The caller gave them as floats.
     for (int64_t i = 0; i < sample_count(f); ++i) out = fe__put_float(out, f->heights[i]);
     return f->cells ? fe__put_bytes(out, f->cells, cell_count(f)) : out;
 }
@@ -111,7 +109,7 @@ int32_t fe__cooked_field_counts(fe__cooked *c, fe__heightfield *f)
     return 1;
 }
 
-static int32_t read_heights(fe__cooked *c, fe__heightfield *f)
+int32_t fe__cooked_field_read(fe__cooked *c, fe__heightfield *f, int32_t material_count)
 {
     for (int64_t i = 0; i < sample_count(f); ++i) {
         const unsigned char *at = c->at;
@@ -120,12 +118,9 @@ static int32_t read_heights(fe__cooked *c, fe__heightfield *f)
         return fe__cooked_refuse(c, at, "height %lld is %.9g, must be %.9g..%.9g", (long long)i, (double)height,
                                  (double)-FE_MAX_LOCAL, (double)FE_MAX_LOCAL);
     }
-    return 1;
-}
-
-static int32_t read_cells(fe__cooked *c, fe__heightfield *f, int32_t material_count)
-{
-    int32_t most = material_count ? material_count : 1; // 0: the shape's material
+    fe__heightfield_measure(f, 0, f->rows);
+    if (!f->cells) return 1;
+    int32_t most = material_count ? material_count : 1; // An asset without materials has number 0 alone: the shape's.
     const unsigned char *start = c->at;
     fe__take_bytes(&c->at, f->cells, cell_count(f));
     for (int64_t i = 0; i < cell_count(f); ++i) {
@@ -134,11 +129,4 @@ static int32_t read_cells(fe__cooked *c, fe__heightfield *f, int32_t material_co
                                  (int)material_count);
     }
     return 1;
-}
-
-int32_t fe__cooked_field_read(fe__cooked *c, fe__heightfield *f, int32_t material_count)
-{
-    if (!read_heights(c, f)) return 0;
-    fe__heightfield_measure(f, 0, f->rows);
-    return !f->cells || read_cells(c, f, material_count);
 }

@@ -1,50 +1,42 @@
 // cooked_hull.c - convex hulls as bytes; see cooked.h.
 //
-// A hull that is read keeps what form/hull.h promises: closed, of one piece as Euler counts it, its faces flat and
-// convex, its neighbours bent outwards, thick enough to have a mass. Bounds have a spare for what floats round.
+// A hull that is read keeps the invariants of form/hull.h: it is closed, of one piece by Euler's formula, its faces are
+// flat and convex, neighbours bend outwards, and it is thick enough to have a mass. The bounds of the checks allow for
+// the rounding of floats.
 #include "collision/cooked/cooked.h"
 #include "collision/hull_build/hull_builder.h"
 #include "core/bytes.h"
 
-// What floats and the builder's grid round, in extents e. A plane's distance is the next float, of 4.4 e at most from
-// the origin: 5.3e-7. A normal is off by 5.2e-8, over 1.8 e; a vertex by half a step of the grid on each axis, 2^-26 e
+// The rounding of floats and of the builder's grid, in extents e. A plane's distance, 4.4 e at most from the origin, is
+// the next float: 5.3e-7. A normal is off by 5.2e-8, over 1.8 e; a vertex by half a step of the grid on each axis,
+// 2^-26 e.
 #define ROUNDING 1e-6
-// |n|^2 of a unit vector in floats is off by some 1.1e-7
+// |n|^2 of a unit vector in floats is off by some 1.1e-7.
 #define UNIT_SLACK 1e-6
-// A slab of a face is at most a quarter of the tolerance, and a 32nd of the thickness (hull_build/hull_builder.c)
+// A face's slab is at most a quarter of the tolerance, and a 32nd of the thickness (hull_build/hull_builder.c).
 #define FLAT_OF_TOLERANCE 0.25
 #define FLAT_OF_THICKNESS (1.0 / 32.0)
-// Corners that were dropped lay in the slab on either side
+// Corners that were dropped lay in the slab on either side.
 #define WIDTH_LEFT (1.0 - 2.0 * FLAT_OF_THICKNESS)
 // Few vertices make a hull thinner than its points, which have the least thickness d. The tetrahedron that it grew from
 // (hull_build/quickhull.c) has a height of d / 2 at least over a base of area A. No point is farther from the base's
 // longest side L than the base's third corner, or farther from its ends than sqrt 3 L: the other sides have 1, 4.2 and
-// 4.2 A at most. So the ball in it has a radius of d / 2 / 10.4, and no width of the hull is less than d / 10.4, of
-// which WIDTH_LEFT and ROUNDING leave 0.08 d
+// 4.2 A at most. So the ball in it has a radius of d / 2 / 10.4, and no width of the hull is less than d / 10.4.
+// WIDTH_LEFT and ROUNDING leave 0.08 d of it.
 #define THICKNESS_LEFT (1.0 / 16.0)
-#define PARALLEL 2e-5 // sine: twice that below which the builder takes edges for parallel
+// Twice the sine below which edges are parallel for the builder.
+#define PARALLEL 2e-5
 
 // ---- writing -------------------------------------------------------------------------------------------------------
-static int64_t array_bytes(const fe__hull *h)
+int64_t fe__cooked_hull_size(const fe__hull *h)
 {
-    return 4 * 7 + 12 * (h->vertex_count + h->face_count + h->direction_count) + 2 * 2 * h->edge_count + h->face_count +
-           2 * h->edge_count;
+    int32_t measures = 4 * 7, points = 12 * (h->vertex_count + h->face_count + h->direction_count);
+    return FE__COOKED_HULL_COUNTS + measures + points + 2 * 2 * h->edge_count + h->face_count + 2 * h->edge_count;
 }
-
-int64_t fe__cooked_hull_size(const fe__hull *h) { return FE__COOKED_HULL_COUNTS + array_bytes(h); }
 
 static unsigned char *write_lanes(const fe__hull_lanes *lanes, int32_t count, unsigned char *out)
 {
     for (int32_t i = 0; i < count; ++i) out = fe__put_vec3(out, fe__hull_lane(lanes, i));
-    return out;
-}
-
-static unsigned char *write_half_edges(const fe__hull *h, unsigned char *out)
-{
-    for (int32_t i = 0; i < h->face_count; ++i) {
-        uint16_t half = h->faces[i].edge;
-        for (int32_t k = 0; k < h->faces[i].count; ++k, half = h->edges[half].next) out = fe__put_u16(out, half);
-    }
     return out;
 }
 
@@ -55,19 +47,23 @@ unsigned char *fe__cooked_hull_write(const fe__hull *h, unsigned char *out)
     out = fe__put_float(fe__put_float(out, h->tolerance), h->error);
     out = write_lanes(&h->vertices, h->vertex_count, out);
     out = write_lanes(&h->normals, h->face_count, out);
-    out = write_half_edges(h, write_lanes(&h->directions, h->direction_count, out));
+    out = write_lanes(&h->directions, h->direction_count, out);
+    for (int32_t i = 0; i < h->face_count; ++i) {
+        uint16_t half = h->faces[i].edge;
+        for (int32_t k = 0; k < h->faces[i].count; ++k, half = h->edges[half].next) out = fe__put_u16(out, half);
+    }
     for (int32_t i = 0; i < h->face_count; ++i) *out++ = (unsigned char)h->faces[i].count;
     return fe__put_bytes(out, h->corners, 2 * h->edge_count);
 }
 
-// ---- counts --------------------------------------------------------------------------------------------------------
+// ---- counts and numbers --------------------------------------------------------------------------------------------
 int32_t fe__cooked_hull_counts(fe__cooked *c, fe__hull *h)
 {
     if (!fe__cooked_int(c, "the number of vertices", 4, FE__HULL_VERTICES, &h->vertex_count) ||
         !fe__cooked_int(c, "the number of faces", 4, 2 * h->vertex_count - 4, &h->face_count) ||
         !fe__cooked_int(c, "the number of directions", 0, FE__HULL_DIRECTIONS, &h->direction_count))
         return 0;
-    h->edge_count = h->vertex_count + h->face_count - 2; // Euler
+    h->edge_count = h->vertex_count + h->face_count - 2; // Euler's formula
     return 1;
 }
 
@@ -77,7 +73,6 @@ int64_t fe__cooked_hull_block(const fe__hull *h)
     return fe__hull_share(&counted, NULL);
 }
 
-// ---- numbers -------------------------------------------------------------------------------------------------------
 static int32_t read_point(fe__cooked *c, const char *name, int32_t index, float most, fe_vec3 *out)
 {
     const unsigned char *at = c->at;
@@ -93,7 +88,7 @@ static int32_t read_point(fe__cooked *c, const char *name, int32_t index, float 
 
 static int32_t read_measures(fe__cooked *c, fe__hull *h)
 {
-    const float most = 4.0f * FE_MAX_LENGTH; // wider than the diagonal of all points
+    const float most = 4.0f * FE_MAX_LENGTH; // The diagonal of all points is shorter.
     return read_point(c, "origin", 0, FE_MAX_LENGTH, &h->origin) &&
            fe__cooked_float(c, "thickness", 0.0f, most, &h->thickness) &&
            fe__cooked_float(c, "extent", (float)FE__HULL_LEAST_THICKNESS, most, &h->extent) &&
@@ -159,18 +154,7 @@ static int32_t read_corners(fe__cooked *c, fe__hull *h)
     return 1;
 }
 
-// Each half-edge belongs to one corner
-static int32_t check_halves(fe__cooked *c, const fe__hull *h, const unsigned char *start, const uint16_t *half)
-{
-    uint8_t seen[FE__HULL_CORNERS] = {0};
-    for (int32_t i = 0; i < 2 * h->edge_count; ++i) {
-        if (half[i] >= 2 * h->edge_count || seen[half[i]]++)
-            return fe__cooked_refuse(c, start + 2 * i, "corner %d has half-edge %d: none of %d, or that of another",
-                                     (int)i, half[i], (int)(2 * h->edge_count));
-    }
-    return 1;
-}
-
+// Half-edges 2 k and 2 k + 1 must be the two sides of one edge.
 static int32_t check_twins(fe__cooked *c, const fe__hull *h, const unsigned char *start)
 {
     for (int32_t i = 0; i < 2 * h->edge_count; i += 2) {
@@ -183,7 +167,7 @@ static int32_t check_twins(fe__cooked *c, const fe__hull *h, const unsigned char
     return 1;
 }
 
-// The half-edges around each vertex form one ring, and these rings are all there are
+// The half-edges around each vertex must form one ring, and there must be no others.
 static int32_t check_rings(fe__cooked *c, const fe__hull *h, const unsigned char *start)
 {
     int32_t met = 0, at_vertex[FE__HULL_VERTICES] = {0};
@@ -205,28 +189,19 @@ static int32_t check_rings(fe__cooked *c, const fe__hull *h, const unsigned char
 static int32_t read_topology(fe__cooked *c, fe__hull *h)
 {
     uint16_t half[FE__HULL_CORNERS];
+    uint8_t seen[FE__HULL_CORNERS] = {0};
     const unsigned char *start = c->at;
     for (int32_t i = 0; i < 2 * h->edge_count; ++i) half[i] = fe__take_u16(&c->at);
-    if (!read_faces(c, h) || !read_corners(c, h) || !check_halves(c, h, start, half)) return 0;
+    if (!read_faces(c, h) || !read_corners(c, h)) return 0;
+    for (int32_t i = 0; i < 2 * h->edge_count; ++i) // Each half-edge belongs to one corner.
+        if (half[i] >= 2 * h->edge_count || seen[half[i]]++)
+            return fe__cooked_refuse(c, start + 2 * i, "corner %d has half-edge %d: none of %d, or that of another",
+                                     (int)i, half[i], (int)(2 * h->edge_count));
     fe__hull_connect(h, half);
     return check_twins(c, h, start) && check_rings(c, h, start);
 }
 
-// ---- form ----------------------------------------------------------------------------------------------------------
-// Between a face and the vertex farthest below it: the least of all faces
-static double least_width(const fe__hull *h)
-{
-    double least = (double)INFINITY;
-    for (int32_t i = 0; i < h->face_count; ++i) {
-        fe_dvec3 n = fe__widen(fe__hull_normal(h, i));
-        double lowest = (double)h->distances[i];
-        for (int32_t v = 0; v < h->vertex_count; ++v)
-            lowest = fe__mind(lowest, fe__ddot(n, fe__widen(fe__hull_vertex(h, v))));
-        least = fe__mind(least, (double)h->distances[i] - lowest);
-    }
-    return least;
-}
-
+// ---- shape ---------------------------------------------------------------------------------------------------------
 static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char *measures)
 {
     fe_dvec3 sides = fe__dsub(fe__widen(h->high), fe__widen(h->low));
@@ -234,7 +209,14 @@ static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char
     if (longest > extent * (1.0 + ROUNDING))
         return fe__cooked_refuse(c, measures + 16, "the hull is %.9g m long, and its points are %.9g m", longest,
                                  extent);
-    double width = least_width(h), slack = ROUNDING * extent;
+    double width = (double)INFINITY, slack = ROUNDING * extent; // least width between a face and a vertex below it
+    for (int32_t i = 0; i < h->face_count; ++i) {
+        fe_dvec3 n = fe__widen(fe__hull_normal(h, i));
+        double lowest = (double)h->distances[i];
+        for (int32_t v = 0; v < h->vertex_count; ++v)
+            lowest = fe__mind(lowest, fe__ddot(n, fe__widen(fe__hull_vertex(h, v))));
+        width = fe__mind(width, (double)h->distances[i] - lowest);
+    }
     double least = THICKNESS_LEFT * fe__hull_least_thickness(extent);
     if (width < least || WIDTH_LEFT * (double)h->thickness > width + slack)
         return fe__cooked_refuse(c, measures + 12, "the hull is %.9g m thick, must be at least %.9g and %.9g", width,
@@ -246,9 +228,9 @@ static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char
     return 1;
 }
 
-// How far the face turns to the right at its corner k, m: by as much the corner lies inside of the line past it.
-// Rounding moves each corner, and a tip between two that are near each other is moved by as many times more as its
-// sides are longer than the line
+// How far the face turns to the right at its corner k, m: so far the corner lies inside of the line past it. Rounding
+// moves each corner; it moves a tip between two corners that are near each other by as many times more as its sides are
+// longer than the line.
 static double turn_right_at(const fe__hull *h, const fe__hull_face *face, int32_t k)
 {
     const uint8_t *corner = h->corners + face->first;
@@ -282,33 +264,22 @@ static int32_t check_bends(fe__cooked *c, const fe__hull *h, const unsigned char
     return 1;
 }
 
-// Where directions are kept, each edge has one
-static int32_t has_direction(const fe__hull *h, int32_t edge)
-{
-    fe_dvec3 side = fe__widen(fe__hull_lane(&h->vectors, edge));
-    double most = PARALLEL * PARALLEL * fe__ddot(side, side);
-    for (int32_t i = 0; i < h->direction_count; ++i) {
-        fe_dvec3 n = fe__dcross(side, fe__widen(fe__hull_lane(&h->directions, i)));
-        if (fe__ddot(n, n) <= most) return 1;
-    }
-    return 0;
-}
-
+// If directions are kept, each edge must be along one of them.
 static int32_t check_directions(fe__cooked *c, const fe__hull *h, const unsigned char *directions)
 {
-    for (int32_t k = 0; h->direction_count && k < h->edge_count; ++k)
-        if (!has_direction(h, k))
+    for (int32_t k = 0; h->direction_count && k < h->edge_count; ++k) {
+        fe_dvec3 side = fe__widen(fe__hull_lane(&h->vectors, k));
+        double most = PARALLEL * PARALLEL * fe__ddot(side, side);
+        int32_t is_along = 0;
+        for (int32_t i = 0; i < h->direction_count && !is_along; ++i) {
+            fe_dvec3 n = fe__dcross(side, fe__widen(fe__hull_lane(&h->directions, i)));
+            is_along = fe__ddot(n, n) <= most;
+        }
+        if (!is_along)
             return fe__cooked_refuse(c, directions, "edge %d is along none of the %d directions", (int)k,
                                      (int)h->direction_count);
+    }
     return 1;
-}
-
-static int32_t weigh(fe__cooked *c, fe__hull *h, const unsigned char *measures)
-{
-    fe__hull_weigh(h);
-    fe_vec3 i = h->mass.inertia;
-    if (h->mass.volume > 0.0 && i.x > 0.0f && i.y > 0.0f && i.z > 0.0f && h->inner_radius > 0.0f) return 1;
-    return fe__cooked_refuse(c, measures, "the hull has no mass: its volume is %.9g m3", h->mass.volume);
 }
 
 int32_t fe__cooked_hull_read(fe__cooked *c, fe__hull *h, void *block)
@@ -321,6 +292,11 @@ int32_t fe__cooked_hull_read(fe__cooked *c, fe__hull *h, void *block)
         return 0;
     fe__hull_place_planes(h);
     fe__hull_finish(h);
-    return check_sizes(c, h, measures) && check_faces(c, h, normals) && check_bends(c, h, normals) &&
-           check_directions(c, h, directions) && weigh(c, h, measures);
+    if (!check_sizes(c, h, measures) || !check_faces(c, h, normals) || !check_bends(c, h, normals) ||
+        !check_directions(c, h, directions))
+        return 0;
+    fe__hull_weigh(h);
+    fe_vec3 i = h->mass.inertia;
+    if (h->mass.volume > 0.0 && i.x > 0.0f && i.y > 0.0f && i.z > 0.0f && h->inner_radius > 0.0f) return 1;
+    return fe__cooked_refuse(c, measures, "the hull has no mass: its volume is %.9g m3", h->mass.volume);
 }

@@ -1,8 +1,8 @@
-// clip.c - cutting a face by another, and choosing four of the vertices.
+// clip.c - cuts a face by another one, and chooses four of the vertices.
 //
-// Input: two faces in the plane of one of them, from box_box.c and convex.c, which turn the vertices into contact
-// points. The rectangle's cut works on the four edges of the incident face side by side (Liang and Barsky, 1984)
-// without a branch; the general one is Sutherland and Hodgman's (1974). What has a rim is cut by the circle itself.
+// box_box.c and convex.c give two faces in the plane of one of them and turn the vertices into contact points. The cut
+// by a rectangle works on the four edges of the incident face side by side, without a branch (Liang and Barsky, 1984);
+// the general cut is Sutherland and Hodgman's (1974). A disc cuts by its circle itself.
 #define FE_W 4
 #include "collision/form/clip.h"
 
@@ -11,15 +11,15 @@
 #include <float.h>
 #include <string.h>
 
-// ---- four lanes ----------------------------------------------------------------------------------------------------
+// ---- a parallelogram by a rectangle --------------------------------------------------------------------------------
 static inline wide absolute(wide a) { return (wide)((wide_int)a & 0x7fffffff); }
-static inline wide_int choose_int(wide_int m, wide_int yes, wide_int no) { return (m & yes) | (~m & no); }
-static inline uint32_t bits(wide_int m)
+static inline wide_int choose_int(wide_int mask, wide_int yes, wide_int no) { return (mask & yes) | (~mask & no); }
+static inline uint32_t bits(wide_int mask)
 {
 #if FE_X86
-    return (uint32_t)_mm_movemask_ps((__m128)m);
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
 #else
-    return (uint32_t)((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
+    return (uint32_t)((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
 }
 
@@ -33,21 +33,20 @@ static inline lanes at(const fe__parallelogram *p, wide i, wide j)
                    p->centre.z + i * p->x.z + j * p->y.z};
 }
 
-// ---- the four edges -------------------------------------------------------------------------------------------------
 // Edge k runs from corner k to corner k + 1, around the parallelogram; so do the corners of the rectangle.
 static const wide corner_i = {-1.0f, 1.0f, 1.0f, -1.0f}, corner_j = {-1.0f, -1.0f, 1.0f, 1.0f};
 static const wide step_i = {2.0f, 0.0f, -2.0f, 0.0f}, step_j = {0.0f, 2.0f, 0.0f, -2.0f};
 
 typedef struct cut_edges {
     lanes start, end;
-    wide_int has_start, has_end; // the end is given only where the next edge does not give it as its start
-    wide_int side_start,
-        side_end; // the rectangle's side that cuts there: 0 +u, 1 +v, 2 -u, 3 -v; -1 a start that nothing cut
+    wide_int has_start, has_end; // The end is given only if the next edge does not give it as its start.
+    // The rectangle's side that cuts there: 0 +u, 1 +v, 2 -u, 3 -v; -1: nothing cuts the start.
+    wide_int side_start, side_end;
 } cut_edges;
 
-// What of start + t step, 0 <= t <= 1, lies in the rectangle: inside |u| <= h for t between (-h - u) / du and (h - u) /
-// du, whichever comes first. An edge parallel to a side has du = 0, which becomes so small that it is inside always or
-// never.
+// The part of start + t step, 0 <= t <= 1, that lies in the rectangle. It is inside |u| <= h for t between
+// (-h - u) / du and (h - u) / du, in either order. The du = 0 of an edge parallel to a side is replaced by one so small
+// that the edge is inside for all t or for none.
 static inline cut_edges cut_by_rectangle(const fe__parallelogram *p, float half_u, float half_v)
 {
     const wide zero = {0.0f, 0.0f, 0.0f, 0.0f}, one = {1.0f, 1.0f, 1.0f, 1.0f}, tiny = {1e-12f, 1e-12f, 1e-12f, 1e-12f};
@@ -74,7 +73,7 @@ static inline cut_edges cut_by_rectangle(const fe__parallelogram *p, float half_
 }
 
 // The rectangle's corners that lie in the parallelogram, at its height: corner = centre + i x + j y solved for i and j.
-// Only half the slack, so that an edge that has just left the rectangle and a corner that has just left the
+// They have only half the slack, so that an edge that has just left the rectangle and a corner that has just left the
 // parallelogram never both lose a point: a point given twice does no harm, one lost tilts a stack.
 static inline lanes corners_inside(const fe__parallelogram *p, float half_u, float half_v, float slack,
                                    wide_int *inside)
@@ -129,50 +128,23 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
     return count;
 }
 
-// ---- any polygon ---------------------------------------------------------------------------------------------------
-// The part of a polygon, or of an open line of one or two vertices, on the left of the line through p along (du, dv),
-// by name `side`.
-typedef struct cutter {
-    float u, v, du, dv; // the direction has length 1
-    float slack;
-    int32_t side;
-} cutter;
-
-static float inside_by(const cutter *c, const fe__clip_vertex *p)
-{
-    return c->du * (p->v - c->v) - c->dv * (p->u - c->u) + c->slack;
-}
-
-static fe__clip_vertex crossing(const fe__clip_vertex *p, const fe__clip_vertex *q, float at_p, float at_q,
-                                int32_t side)
-{
-    float t = at_p / (at_p - at_q);
-    int32_t edge = (int32_t)(p->id & 0xff); // the one from p to q
-    uint32_t id = at_p > at_q ? fe__clip_id(edge, FE_CLIP_SIDE + side) : fe__clip_id(FE_CLIP_SIDE + side, edge);
-    return (fe__clip_vertex){p->u + t * (q->u - p->u), p->v + t * (q->v - p->v),
-                             p->height + t * (q->height - p->height), id};
-}
-
-// Of each vertex how far it is inside. 1: all of them are
-static int32_t measure(const cutter *c, const fe__clip_vertex *in, int32_t count, float *out_inside)
-{
-    int32_t all = 1;
-    for (int32_t i = 0; i < count; ++i) {
-        out_inside[i] = inside_by(c, &in[i]);
-        all &= out_inside[i] >= 0.0f;
-    }
-    return all;
-}
-
-static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, const float *inside, int32_t count,
-                           int32_t closed, fe__clip_vertex *out)
+// ---- any polygon by a convex one -----------------------------------------------------------------------------------
+// Keeps the vertices with inside >= 0 and adds the crossings of the edges with the line of side number `side`. A
+// polygon is closed, a segment or a point is not.
+static int32_t cut_polygon(const fe__clip_vertex *in, const float *inside, int32_t count, int32_t closed, int32_t side,
+                           fe__clip_vertex *out)
 {
     int32_t left = 0;
     for (int32_t i = 0; i < count; ++i) {
-        if (closed || i > 0) {
-            int32_t previous = i > 0 ? i - 1 : count - 1;
-            if ((inside[previous] < 0.0f) != (inside[i] < 0.0f))
-                out[left++] = crossing(&in[previous], &in[i], inside[previous], inside[i], c->side);
+        int32_t previous = i > 0 ? i - 1 : count - 1;
+        if ((closed || i > 0) && (inside[previous] < 0.0f) != (inside[i] < 0.0f)) {
+            const fe__clip_vertex *p = &in[previous], *q = &in[i];
+            float t = inside[previous] / (inside[previous] - inside[i]);
+            int32_t edge = (int32_t)(p->id & 0xff); // the edge from p to q
+            uint32_t id = inside[previous] > inside[i] ? fe__clip_id(edge, FE_CLIP_SIDE + side)
+                                                       : fe__clip_id(FE_CLIP_SIDE + side, edge);
+            out[left++] = (fe__clip_vertex){p->u + t * (q->u - p->u), p->v + t * (q->v - p->v),
+                                            p->height + t * (q->height - p->height), id};
         }
         if (inside[i] >= 0.0f) out[left++] = in[i];
     }
@@ -185,12 +157,17 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
     fe__clip_vertex other[FE_CLIP_VERTICES], *in = incident, *out = other;
     float inside[FE_CLIP_VERTICES];
     int32_t closed = count > 2;
-    for (int32_t i = 0; i < reference_count && count > 0; ++i) {
-        const fe__clip_vertex *p = &reference[i], *q = &reference[(i + 1) % reference_count];
+    for (int32_t side = 0; side < reference_count && count > 0; ++side) {
+        const fe__clip_vertex *p = &reference[side], *q = &reference[(side + 1) % reference_count];
         float du = q->u - p->u, dv = q->v - p->v, inverse = 1.0f / sqrtf(du * du + dv * dv);
-        cutter c = {p->u, p->v, inverse * du, inverse * dv, slack, i};
-        if (measure(&c, in, count, inside)) continue;
-        count = cut_polygon(&c, in, inside, count, closed, out);
+        du *= inverse, dv *= inverse;
+        int32_t all_inside = 1;
+        for (int32_t i = 0; i < count; ++i) {
+            inside[i] = du * (in[i].v - p->v) - dv * (in[i].u - p->u) + slack;
+            all_inside &= inside[i] >= 0.0f;
+        }
+        if (all_inside) continue;
+        count = cut_polygon(in, inside, count, closed, side, out);
         fe__clip_vertex *swap = in;
         in = out, out = swap;
     }
@@ -198,11 +175,9 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
     return count;
 }
 
-// ---- a disc --------------------------------------------------------------------------------------------------------
-// The square of a vertex's distance from the rim's centre, less that of the rim: above 0 outside
-static float outside_by(const fe__clip_vertex *p, float square) { return p->u * p->u + p->v * p->v - square; }
-
-// Where the edge from p to q enters the disc and where it leaves: |p + t d|^2 = r^2
+// ---- a polygon by a disc -------------------------------------------------------------------------------------------
+// The points where the edge from p to q enters the disc and where it leaves: |p + t d|^2 = r^2. p_out and q_out are
+// the squares of the ends' distances from the disc's centre, less r^2: above 0 outside.
 static int32_t cross_rim(const fe__clip_vertex *p, const fe__clip_vertex *q, float p_out, float q_out, int32_t edge,
                          fe__clip_vertex *out)
 {
@@ -232,12 +207,12 @@ static fe__clip_vertex rim_point(const fe__disc *disc, int32_t i)
     return (fe__clip_vertex){u, v, disc->height + disc->slope_u * u + disc->slope_v * v, fe__clip_id(name, name)};
 }
 
-// The line of a polygon's edge: its unit normal points out of the polygon, its distance counts from the rim's centre.
+// The line of a polygon's edge: its unit normal points out of the polygon, its distance counts from the disc's centre.
 typedef struct edge_line {
     float u, v, distance;
 } edge_line;
 
-// The least distance of the edges
+// Returns the least distance of the edges from the disc's centre, below 0 if that is outside.
 static float find_lines(const fe__clip_vertex *polygon, int32_t count, edge_line *line)
 {
     float least = FLT_MAX;
@@ -251,22 +226,16 @@ static float find_lines(const fe__clip_vertex *polygon, int32_t count, edge_line
     return least;
 }
 
-static int32_t is_over(const fe__clip_vertex *p, const edge_line *line, int32_t count, float slack)
-{
-    for (int32_t i = 0; i < count; ++i)
-        if (line[i].u * p->u + line[i].v * p->v > line[i].distance + slack) return 0;
-    return 1;
-}
-
+// A disc wholly over the polygon: all of its points or, if none is above the margin, four that hold it.
 static int32_t whole_rim(const fe__disc *disc, float margin, fe__clip_vertex *out)
 {
-    float lean = sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
-    int32_t few = disc->height + disc->radius * lean <= margin, count = few ? 4 : FE_RIM_POINTS;
     // An aimed rim is held by the two points in front, and those 127 degrees from them.
     static const int32_t aimed[4] = {0, 1, 6, 11};
+    float lean = sqrtf(disc->slope_u * disc->slope_u + disc->slope_v * disc->slope_v);
+    int32_t few = disc->height + disc->radius * lean <= margin, count = few ? 4 : FE_RIM_POINTS;
     for (int32_t i = 0; i < count; ++i) {
-        int32_t on = (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS;
-        out[i] = rim_point(disc, few && disc->pattern == FE_RIM_AIMED ? aimed[i] : on);
+        int32_t from_low = (disc->low + i * (FE_RIM_POINTS / count)) % FE_RIM_POINTS;
+        out[i] = rim_point(disc, few && disc->pattern == FE_RIM_AIMED ? aimed[i] : from_low);
     }
     return count;
 }
@@ -276,10 +245,10 @@ int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int3
 {
     edge_line line[FE_FACE_VERTICES];
     if (count > 2 && find_lines(polygon, count, line) >= disc->radius - slack) return whole_rim(disc, margin, out);
-    float reach = disc->radius + slack, square = reach * reach, outside[FE_FACE_VERTICES];
+    float widened = disc->radius + slack, square = widened * widened, outside[FE_FACE_VERTICES];
     int32_t left = 0, sides = count > 2 ? count : count - 1, some_outside = 0;
     for (int32_t i = 0; i < count; ++i) {
-        outside[i] = outside_by(&polygon[i], square);
+        outside[i] = polygon[i].u * polygon[i].u + polygon[i].v * polygon[i].v - square;
         some_outside |= outside[i] > 0.0f;
     }
     if (!some_outside) {
@@ -294,55 +263,18 @@ int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int3
     }
     for (int32_t i = 0; i < FE_RIM_POINTS && count > 2; ++i) {
         fe__clip_vertex p = rim_point(disc, i);
-        if (is_over(&p, line, count, slack)) out[left++] = p;
+        int32_t k = 0;
+        while (k < count && !(line[k].u * p.u + line[k].v * p.v > line[k].distance + slack)) ++k;
+        if (k == count) out[left++] = p; // no edge has it outside
     }
     return left;
 }
 
-// ---- four of many --------------------------------------------------------------------------------------------------
+// ---- the four that the load leans over -----------------------------------------------------------------------------
 static float apart(const fe__clip_vertex *p, const fe__clip_vertex *q)
 {
     float du = p->u - q->u, dv = p->v - q->v;
     return sqrtf(du * du + dv * dv);
-}
-
-typedef struct bounds {
-    fe__clip_vertex low, high; // the high one's height is not told
-} bounds;
-
-static bounds bounds_of(const fe__clip_vertex *p, int32_t count)
-{
-    bounds b = {p[0], p[0]};
-    for (int32_t i = 1; i < count; ++i) {
-        b.low.u = fe__minf(b.low.u, p[i].u), b.high.u = fe__maxf(b.high.u, p[i].u);
-        b.low.v = fe__minf(b.low.v, p[i].v), b.high.v = fe__maxf(b.high.v, p[i].v);
-        b.low.height = fe__minf(b.low.height, p[i].height);
-    }
-    return b;
-}
-
-// The vertex farthest from the middle, of those as deep as the deepest: one amid an edge must not stand for a corner.
-static int32_t deepest(const fe__clip_vertex *p, int32_t count, const bounds *b, float tie)
-{
-    fe__clip_vertex middle = {0.5f * (b->low.u + b->high.u), 0.5f * (b->low.v + b->high.v), b->low.height, 0};
-    int32_t k = 0;
-    float best = -1.0f;
-    for (int32_t i = 0; i < count; ++i) {
-        float distance = apart(&p[i], &middle);
-        if (p[i].height <= b->low.height + tie && distance > best + tie) best = distance, k = i;
-    }
-    return k;
-}
-
-static int32_t farthest(const fe__clip_vertex *p, int32_t count, int32_t from, float tie)
-{
-    int32_t k = from;
-    float best = 0.0f;
-    for (int32_t i = 0; i < count; ++i) {
-        float distance = apart(&p[i], &p[from]);
-        if (distance > best + tie) best = distance, k = i;
-    }
-    return k;
 }
 
 static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chosen, int32_t count, float tie)
@@ -353,176 +285,171 @@ static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chos
     return 0;
 }
 
-// What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry,
-// side by side, now one is chosen and now the other, and the load swings between them.
-static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
+// The way in which the load leans: from the middle (u, v) of the low vertices along (du, dv) to the foot.
+typedef struct lean_way {
+    float u, v, du, dv, square; // square: of the length of (du, dv)
+} lean_way;
+
+// How far p is along the way and how far to its left, both times the way's length.
+static float ahead_of(const lean_way *way, const fe__clip_vertex *p)
 {
-    float level = fe__maxf(p[chosen[0]].height + tie, 0.0f);
-    for (int32_t i = 0; i < count; ++i) {
-        if (p[i].height > level || is_among(p, i, chosen, chosen_count, tie)) continue;
-        int32_t highest = 0;
-        for (int32_t k = 1; k < chosen_count; ++k) {
-            if (p[chosen[k]].height > p[chosen[highest]].height) highest = k;
-        }
-        if (p[chosen[highest]].height <= level + FE__CLEAR) return;
-        chosen[highest] = i;
-    }
+    return way->du * (p->u - way->u) + way->dv * (p->v - way->v);
+}
+static float left_of(const lean_way *way, const fe__clip_vertex *p)
+{
+    return way->du * (p->v - way->v) - way->dv * (p->u - way->u);
 }
 
-// ---- where the load leans ------------------------------------------------------------------------------------------
-// The outlook is from the middle of the vertices, along the way from there to the foot.
-typedef struct outlook {
-    float u, v, du, dv, square; // the square of the way's length
-} outlook;
-
-// both times the way's length
-static float ahead_of(const outlook *o, const fe__clip_vertex *p)
+// How far along the way the line from a vertex on its left to one on its right crosses it, times its length.
+static float crossing_of(const lean_way *way, const fe__clip_vertex *a, const fe__clip_vertex *b)
 {
-    return o->du * (p->u - o->u) + o->dv * (p->v - o->v);
-}
-static float left_of(const outlook *o, const fe__clip_vertex *p)
-{
-    return o->du * (p->v - o->v) - o->dv * (p->u - o->u);
+    float left = left_of(way, a), right = -left_of(way, b), width = left + right;
+    if (!(width > 0.0f)) return fe__minf(ahead_of(way, a), ahead_of(way, b));
+    return (right * ahead_of(way, a) + left * ahead_of(way, b)) / width;
 }
 
-// 0: too few vertices are that low
-static int32_t look_out(const fe__clip_vertex *p, int32_t count, float level, const fe__foot *foot, outlook *o)
-{
-    float u = 0.0f, v = 0.0f;
-    int32_t low = 0;
-    for (int32_t i = 0; i < count; ++i)
-        if (p[i].height <= level) u += p[i].u, v += p[i].v, ++low;
-    if (low < 3) return 0;
-    float share = foot->from_origin ? 0.0f : 1.0f / (float)low;
-    *o = (outlook){.u = share * u, .v = share * v};
-    o->du = foot->u - o->u, o->dv = foot->v - o->v, o->square = o->du * o->du + o->dv * o->dv;
-    return 1;
-}
-
-// Where the line from a vertex on the left to one on the right crosses the way
-static float crossing_of(const outlook *o, const fe__clip_vertex *a, const fe__clip_vertex *b)
-{
-    float left = left_of(o, a), right = -left_of(o, b), width = left + right;
-    if (!(width > 0.0f)) return fe__minf(ahead_of(o, a), ahead_of(o, b));
-    return (right * ahead_of(o, a) + left * ahead_of(o, b)) / width;
-}
-
-// The low vertex on the left, or on the right, whose line with `other` crosses farthest out, of several on one line the
-// one farthest aside; without the other the vertex farthest out. -1: there is none on that side
-static int32_t farthest_out(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, int32_t is_left,
+// The vertex up to `level` on the left, or on the right, whose line with `other` crosses the way farthest out; of
+// several on one line the one farthest aside. Without `other` it is the vertex farthest out. -1: that side has none
+static int32_t farthest_out(const lean_way *way, const fe__clip_vertex *p, int32_t count, float level, int32_t is_left,
                             const fe__clip_vertex *other, float tie)
 {
     int32_t best = -1;
     float most = 0.0f, aside = 0.0f;
     for (int32_t i = 0; i < count; ++i) {
-        float left = left_of(o, &p[i]);
+        float left = left_of(way, &p[i]);
         if (p[i].height > level || (left >= 0.0f) != is_left) continue;
-        float at = !other ? ahead_of(o, &p[i]) : is_left ? crossing_of(o, &p[i], other) : crossing_of(o, other, &p[i]);
-        int32_t is_wider = fe__absf(left) > aside + tie && at > most - tie;
-        if (best < 0 || at > most + tie || is_wider) most = at, aside = fe__absf(left), best = i;
+        float out = !other    ? ahead_of(way, &p[i])
+                    : is_left ? crossing_of(way, &p[i], other)
+                              : crossing_of(way, other, &p[i]);
+        int32_t is_wider = fe__absf(left) > aside + tie && out > most - tie;
+        if (best < 0 || out > most + tie || is_wider) most = out, aside = fe__absf(left), best = i;
     }
     return best;
 }
 
-// From tangent to tangent of the vertices on either side to their common one (Preparata and Hong, 1977)
-static float find_front(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, float tie,
+// Finds the edge of the low vertices' convex hull that the way crosses: from the tangents on either side to their
+// common one (Preparata and Hong, 1977). Returns the foot's share of the way to that edge, 0: there is no edge
+static float find_front(const lean_way *way, const fe__clip_vertex *p, int32_t count, float level, float tie,
                         int32_t front[2])
 {
     front[0] = front[1] = -1;
-    float equal = tie * sqrtf(o->square);
-    int32_t a = farthest_out(o, p, count, level, 1, NULL, equal), b = farthest_out(o, p, count, level, 0, NULL, equal);
+    float equal = tie * sqrtf(way->square);
+    int32_t a = farthest_out(way, p, count, level, 1, NULL, equal);
+    int32_t b = farthest_out(way, p, count, level, 0, NULL, equal);
     if (a < 0 || b < 0) return 0.0f;
     for (int32_t i = 0; i < count; ++i) {
-        int32_t left = farthest_out(o, p, count, level, 1, &p[b], equal);
-        int32_t right = farthest_out(o, p, count, level, 0, &p[left], equal);
+        int32_t left = farthest_out(way, p, count, level, 1, &p[b], equal);
+        int32_t right = farthest_out(way, p, count, level, 0, &p[left], equal);
         if (left == a && right == b) break;
         a = left, b = right;
     }
-    float at = crossing_of(o, &p[a], &p[b]);
+    float crossing = crossing_of(way, &p[a], &p[b]);
     front[0] = a, front[1] = b;
-    return at > 0.0f ? o->square / at : 0.0f;
+    return crossing > 0.0f ? way->square / crossing : 0.0f;
 }
 
-// The farthest along a direction, cosine and sine of its angle left of the way: the lowest, were the face tilted that
-// way by `tilt`, more than it leans.
-static int32_t farthest_along(const outlook *o, const fe__clip_vertex *p, int32_t count, const float direction[2],
+// The vertex farthest along a direction, given by cosine and sine of its angle left of the way. It is the lowest one if
+// the face is tilted that way by `tilt`, which is more than the face leans.
+static int32_t farthest_along(const lean_way *way, const fe__clip_vertex *p, int32_t count, const float direction[2],
                               float tie)
 {
     const float tilt = 0.05f;
     int32_t best = 0;
-    float most = -FLT_MAX, per_length = 1.0f / sqrtf(o->square);
+    float most = -FLT_MAX, per_length = 1.0f / sqrtf(way->square);
     for (int32_t i = 0; i < count; ++i) {
-        float along = per_length * (direction[0] * ahead_of(o, &p[i]) + direction[1] * left_of(o, &p[i]));
+        float along = per_length * (direction[0] * ahead_of(way, &p[i]) + direction[1] * left_of(way, &p[i]));
         along -= p[i].height / tilt;
         if (along > most + tie) most = along, best = i;
     }
     return best;
 }
 
-// A vertex deeper than the edge in front carries too: it takes the place of the higher one behind. The other one behind
-// stays, or a body that rocks would fall back onto nothing.
-static void keep_deepest(const fe__clip_vertex *p, int32_t count, float low, float tie, int32_t *four, int32_t chosen)
-{
-    if (chosen < 4 || fe__minf(p[four[0]].height, p[four[1]].height) <= low + tie) return;
-    int32_t deepest = 0;
-    for (int32_t i = 1; i < count; ++i)
-        if (p[i].height < p[deepest].height) deepest = i;
-    if (!is_among(p, deepest, four, chosen, tie)) four[p[four[2]].height > p[four[3]].height ? 2 : 3] = deepest;
-}
-
-// Where the way passes the front near one of its ends, the edge beyond that end bears as soon as the load shifts by
-// little: its other end is chosen too, or the points would change from side to side, and each come in sunk. Returns the
-// number of those chosen
-static int32_t turn_corner(const outlook *o, const fe__clip_vertex *p, int32_t count, float level, float tie,
+// If the way passes the front near one of its ends, the edge beyond that end bears as soon as the load shifts by
+// little. Its other end is chosen too, or the points would change from side to side, and each would come in sunk.
+// Returns the number of vertices chosen, 2 or 3.
+static int32_t turn_corner(const lean_way *way, const fe__clip_vertex *p, int32_t count, float level, float tie,
                            int32_t four[4])
 {
-    const float near_end = 0.25f, beyond = 0.05f; // of the front's length
-    float left = left_of(o, &p[four[0]]), right = -left_of(o, &p[four[1]]), width = left + right;
+    const float near_end = 0.25f, beyond = 0.05f; // shares of the front's length
+    float left = left_of(way, &p[four[0]]), right = -left_of(way, &p[four[1]]), width = left + right;
     int32_t end = left < right ? 0 : 1, next[2];
     if (!(fe__minf(left, right) < near_end * width)) return 2;
     const fe__clip_vertex *a = p + four[end], *b = p + four[1 - end];
-    outlook there = {.u = o->u, .v = o->v};
-    there.du = a->u + beyond * (a->u - b->u) - o->u, there.dv = a->v + beyond * (a->v - b->v) - o->v;
-    there.square = there.du * there.du + there.dv * there.dv;
-    find_front(&there, p, count, level, tie, next);
+    lean_way past_end = {.u = way->u, .v = way->v};
+    past_end.du = a->u + beyond * (a->u - b->u) - way->u, past_end.dv = a->v + beyond * (a->v - b->v) - way->v;
+    past_end.square = past_end.du * past_end.du + past_end.dv * past_end.dv;
+    find_front(&past_end, p, count, level, tie, next);
     if (next[1 - end] != four[end] || is_among(p, next[end], four, 2, tie)) return 2;
     four[2] = next[end];
     return 3;
 }
 
-// Returns the number of those chosen, 0: the load does not lean. What rocks another way, or is no face, leaves nothing
-// out
+// Chooses the edge in front of the load and two vertices behind. Returns their number, 0: the load does not lean. A
+// face that rocks another way, or a body that stands on no face, leaves nothing out.
 static int32_t choose_by_foot(const fe__clip_vertex *p, int32_t count, float low, float level, float tie,
                               const fe__foot *foot, int32_t four[4], int32_t *left_out)
 {
-    outlook o;
-    int32_t front[2];
-    if (!look_out(p, count, level, foot, &o)) return 0;
-    float out = find_front(&o, p, count, level, tie, front);
+    float u = 0.0f, v = 0.0f;
+    int32_t low_count = 0, front[2];
+    for (int32_t i = 0; i < count; ++i)
+        if (p[i].height <= level) u += p[i].u, v += p[i].v, ++low_count;
+    if (low_count < 3) return 0;
+    float share = foot->from_origin ? 0.0f : 1.0f / (float)low_count;
+    lean_way way = {.u = share * u, .v = share * v};
+    way.du = foot->u - way.u, way.dv = foot->v - way.v, way.square = way.du * way.du + way.dv * way.dv;
+
+    float out = find_front(&way, p, count, level, tie, front);
     if (!(out > FE__FOOT_LEAST)) return 0;
     float high = fe__maxf(p[front[0]].height, p[front[1]].height);
-    if (high > low + fe__most_lean(sqrtf(o.square) / out)) {
+    if (high > low + fe__most_lean(sqrtf(way.square) / out)) {
         *left_out = FE_LEFT_NONE;
         return 0;
     }
     *left_out = FE_LEFT_SIDES;
     four[0] = front[0], four[1] = front[1];
-    int32_t chosen = turn_corner(&o, p, count, level, tie, four), first = chosen == 3 ? 2 : 0;
-    // 120 degrees to either side of the way: with the front they keep half of a disc's radius on every side of its
-    // middle; where the front is the longest chord, what lies farthest behind it
+    int32_t chosen = turn_corner(&way, p, count, level, tie, four), has_corner = chosen == 3;
+    // The directions 120 degrees to either side of the way: with the front they keep half of a disc's radius on every
+    // side of its middle. If the front is the longest chord, the vertex farthest behind it is taken.
     static const float behind[3][2] = {{-0.5f, 0.8660254f}, {-0.5f, -0.8660254f}, {-1.0f, 0.0f}};
-    for (int32_t k = first; k < 3 && chosen < 4; ++k) {
-        int32_t i = farthest_along(&o, p, count, behind[k], tie);
+    for (int32_t k = has_corner ? 2 : 0; k < 3 && chosen < 4; ++k) {
+        int32_t i = farthest_along(&way, p, count, behind[k], tie);
         if (!is_among(p, i, four, chosen, tie)) four[chosen++] = i;
     }
-    if (!first) keep_deepest(p, count, low, tie, four, chosen);
+    // A vertex deeper than the edge in front carries too: it takes the place of the higher one behind. The other one
+    // behind stays, or a body that rocks would fall back onto nothing.
+    if (!has_corner && chosen == 4 && !(fe__minf(p[four[0]].height, p[four[1]].height) <= low + tie)) {
+        int32_t deepest = 0;
+        for (int32_t i = 1; i < count; ++i)
+            if (p[i].height < p[deepest].height) deepest = i;
+        if (!is_among(p, deepest, four, chosen, tie)) four[p[four[2]].height > p[four[3]].height ? 2 : 3] = deepest;
+    }
     return chosen;
 }
 
-// ---- where it does not ---------------------------------------------------------------------------------------------
-static int32_t choose_widest(const fe__clip_vertex *p, int32_t count, const bounds *b, float tie, int32_t four[4])
+// ---- the four that span most ---------------------------------------------------------------------------------------
+// The bounding box of the vertices; the height of its upper corner is not set.
+typedef struct bounds {
+    fe__clip_vertex low, high;
+} bounds;
+
+// The deepest vertex, the one farthest from it, and those that span most area on either side of the line through both.
+// Of several that are as deep as the deepest, the one farthest from the middle counts: one amid an edge must not stand
+// for a corner.
+static int32_t choose_widest(const fe__clip_vertex *p, int32_t count, const bounds *box, float tie, int32_t four[4])
 {
-    int32_t first = deepest(p, count, b, tie), second = farthest(p, count, first, tie), left = first, right = first;
+    fe__clip_vertex middle = {0.5f * (box->low.u + box->high.u), 0.5f * (box->low.v + box->high.v), box->low.height, 0};
+    float farthest = -1.0f;
+    int32_t first = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        float distance = apart(&p[i], &middle);
+        if (p[i].height <= box->low.height + tie && distance > farthest + tie) farthest = distance, first = i;
+    }
+    int32_t second = first, left = first, right = first;
+    farthest = 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        float distance = apart(&p[i], &p[first]);
+        if (distance > farthest + tie) farthest = distance, second = i;
+    }
     float du = p[second].u - p[first].u, dv = p[second].v - p[first].v, step = tie * sqrtf(du * du + dv * dv),
           most = step, least = -step;
     for (int32_t i = 0; i < count; ++i) {
@@ -538,8 +465,24 @@ static int32_t choose_widest(const fe__clip_vertex *p, int32_t count, const boun
     return chosen;
 }
 
-// Do those of the chosen vertices that are low hold the foot: is it on their side of the line through any two that are
-// an edge of theirs, by its share of the distance of their middle?
+// A vertex that spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Otherwise, of
+// two that carry side by side, the choice alternates, and the load swings between them.
+static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
+{
+    float level = fe__maxf(p[chosen[0]].height + tie, 0.0f);
+    for (int32_t i = 0; i < count; ++i) {
+        if (p[i].height > level || is_among(p, i, chosen, chosen_count, tie)) continue;
+        int32_t highest = 0;
+        for (int32_t k = 1; k < chosen_count; ++k) {
+            if (p[chosen[k]].height > p[chosen[highest]].height) highest = k;
+        }
+        if (p[chosen[highest]].height <= level + FE__CLEAR) return;
+        chosen[highest] = i;
+    }
+}
+
+// Do the low ones among the chosen vertices hold the foot? Two of them are an edge if all others lie on one side of
+// their line. The foot must lie on that side of each edge, by its share of the distance of their middle.
 static int32_t hold(const fe__clip_vertex *p, const int32_t *chosen, int32_t count, float level, const fe__foot *foot)
 {
     const fe__clip_vertex *low[4];
@@ -563,12 +506,13 @@ static int32_t hold(const fe__clip_vertex *p, const int32_t *chosen, int32_t cou
     return 1;
 }
 
-// The widest four of the last choice. 0: some are gone, or clear of the face, or they do not hold the foot
-static int32_t choose_again(const fe__clip_vertex *p, int32_t count, const bounds *b, float level, float tie,
+// ---- the choice ----------------------------------------------------------------------------------------------------
+// Takes the last choice if it was of the widest four. 0: some are gone, or clear of the face, or do not hold the foot
+static int32_t choose_again(const fe__clip_vertex *p, int32_t count, const bounds *box, float level, float tie,
                             const fe__foot *foot, int32_t four[4])
 {
     const fe__choice *last = &foot->last;
-    float carries = fe__maxf(b->low.height + tie, 0.0f) + FE__CLEAR;
+    float carries = fe__maxf(box->low.height + tie, 0.0f) + FE__CLEAR;
     int32_t found = 0;
     if (last->left_out >= FE_LEFT_SIDES) return 0;
     for (int32_t k = 0; k < last->count; ++k)
@@ -585,17 +529,22 @@ static int32_t choose_again(const fe__clip_vertex *p, int32_t count, const bound
 int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie, const fe__foot *foot, int32_t *left_out)
 {
     if (count <= 4) return count;
-    const bounds b = bounds_of(p, count);
-    float low = fe__maxf(b.low.height, 0.0f),
-          level = low + fe__most_lean(fe__maxf(b.high.u - b.low.u, b.high.v - b.low.v));
+    bounds box = {p[0], p[0]};
+    for (int32_t i = 1; i < count; ++i) {
+        box.low.u = fe__minf(box.low.u, p[i].u), box.high.u = fe__maxf(box.high.u, p[i].u);
+        box.low.v = fe__minf(box.low.v, p[i].v), box.high.v = fe__maxf(box.high.v, p[i].v);
+        box.low.height = fe__minf(box.low.height, p[i].height);
+    }
+    float low = fe__maxf(box.low.height, 0.0f),
+          level = low + fe__most_lean(fe__maxf(box.high.u - box.low.u, box.high.v - box.low.v));
     int32_t four[4], chosen = 0, low_count = 0;
     if (foot) {
         for (int32_t i = 0; i < count; ++i) low_count += p[i].height <= level;
         *left_out = low_count > 4 ? FE_LEFT_SOME : FE_LEFT_NONE;
-        if (low_count > 4) chosen = choose_again(p, count, &b, level, tie, foot, four);
+        if (low_count > 4) chosen = choose_again(p, count, &box, level, tie, foot, four);
     }
     if (!chosen) {
-        chosen = choose_widest(p, count, &b, tie, four);
+        chosen = choose_widest(p, count, &box, tie, four);
         keep_what_carries(p, count, tie, four, chosen);
         if (low_count > 4 && foot->is_known && (foot->is_aimed || !hold(p, four, chosen, level, foot))) {
             int32_t by_foot[4], n = choose_by_foot(p, count, low, level, tie, foot, by_foot, left_out);

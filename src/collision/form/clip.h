@@ -1,13 +1,14 @@
-// clip.h - the polygon in which two faces meet, and its four points.
+// clip.h - cuts a face by another face and chooses the four vertices that become contact points.
 //
-// Used by box against box (four edges side by side) and by the general convex path (any polygon). Both work in the
-// plane of the reference face: u, v along it, height over it, below 0 inside. The incident face is what is cut.
+// Box against box (four edges side by side) and the general convex path (any polygon) call it. Both work in the plane
+// of the reference face: u and v lie in it, height is measured over it and is below 0 inside. The face that is cut is
+// the incident one. The names are those of polygon clipping in 2D engines: reference, incident, slack, feature id.
 #ifndef FE_COLLISION_FORM_CLIP_H
 #define FE_COLLISION_FORM_CLIP_H
 #include "core/math.h"
 
-// id: the edges before and after the vertex. Edges of the incident face count from 0, sides of the reference face from
-// FE_CLIP_SIDE: the name of a vertex lives as long as the two meet.
+// The id holds the edges before and after the vertex. Edges of the incident face count from 0, sides of the reference
+// face from FE_CLIP_SIDE, so that a vertex keeps its id as long as the two faces meet.
 typedef struct fe__clip_vertex {
     float u, v, height;
     uint32_t id;
@@ -15,10 +16,12 @@ typedef struct fe__clip_vertex {
 
 enum {
     FE_CLIP_SIDE = 16,
-    FE_FACE_VERTICES = 16,                   // of the faces that the general path cuts, at most
-    FE_CLIP_VERTICES = 2 * FE_FACE_VERTICES, // of their common polygon: each side of a convex one adds at most one
-    FE_RIM_POINTS = 16,                      // of a disc
-    FE_DISC_VERTICES = FE_CLIP_VERTICES + FE_RIM_POINTS, // of a disc and a face: each edge crosses it twice at most
+    FE_FACE_VERTICES = 16, // The general path cuts faces of at most so many vertices.
+    // Each side of a convex polygon adds at most one vertex to what it cuts.
+    FE_CLIP_VERTICES = 2 * FE_FACE_VERTICES,
+    FE_RIM_POINTS = 16, // A disc is touched at so many points of its rim.
+    // A face's edge crosses the rim of a disc at most twice.
+    FE_DISC_VERTICES = FE_CLIP_VERTICES + FE_RIM_POINTS,
 };
 
 static inline uint32_t fe__clip_id(int32_t before, int32_t after) { return (uint32_t)before << 8 | (uint32_t)after; }
@@ -39,69 +42,74 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
 int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident,
                          int32_t count, float slack);
 
-// How the points of a disc stand on its rim
+// The patterns in which the points of a disc stand on its rim.
 enum {
-    FE_RIM_LEANS, // at equal angles; the disc leans so that one of them is the lowest
-    FE_RIM_LIES,  // at equal angles; the disc is level
-    FE_RIM_AIMED, // the first two stand 3 degrees on either side of where the load leans
+    FE_RIM_LEANS, // The points stand at equal angles; the disc leans so that one of them is the lowest.
+    FE_RIM_LIES,  // The points stand at equal angles; the disc is level.
+    FE_RIM_AIMED, // The first two points stand 3 degrees on either side of the way in which the load leans.
 };
-// Cosine and sine of their angles from the first; [1] of an aimed rim. Each has one across from it
+// Cosine and sine of the points' angles from the first one; row [1] is for an aimed rim. Each point has one across from
+// it.
 extern const float fe__rim_points[2][FE_RIM_POINTS][2];
 
-// A disc about (0, 0), and its height over the other face or that of the other over it, which is
-// height + slope_u u + slope_v v. `low`: of the points at its rim, which begin at +u and turn left, the lowest.
+// A disc about (0, 0). Its height over the other face, or that of the other face over it, is
+// height + slope_u u + slope_v v. `low` is the number of its lowest rim point; they begin at +u and turn left.
 typedef struct fe__disc {
     float radius, height, slope_u, slope_v;
-    int32_t low, pattern;
+    int32_t low, pattern; // pattern: FE_RIM_*
 } fe__disc;
 
 // Gives what a convex polygon that turns right, or a segment, has in common with a disc, both reaching `slack` beyond
-// their rims: the vertices on the disc, where edges cross its rim, and points of the rim over the polygon. A disc that
-// lies wholly over the polygon gives all of them, or, where none is above the margin, four, of which one is the lowest.
+// their rims: the vertices on the disc, the crossings of edges with its rim, and points of the rim over the polygon. A
+// disc that lies wholly over the polygon gives all of its points or, if none of them is above the margin, four, of
+// which one is the lowest.
 int32_t fe__clip_disc(const fe__disc *disc, const fe__clip_vertex *polygon, int32_t count, float slack, float margin,
                       fe__clip_vertex out[FE_DISC_VERTICES]);
 
-// m, a few overlaps of a body at rest: a vertex that is higher than the deepest by no more may carry too
+// Metres, a few overlaps of a body at rest: a vertex that is higher than the deepest by no more may carry too.
 #define FE__CLEAR 0.001f
 
-// How far a face may lean, m, and still be held by the points that are chosen by the load: some overlaps of a body at
-// rest, when all of its weight is on one side, or 1.1 degrees of what rocks that way. `half`: of the face's width
+// How far a face may lean, m, and still be held by points that are chosen by the load: some overlaps of a body at rest,
+// when all of its weight is on one side, or 1.1 degrees of a body that rocks that way. `half` is half the face's width.
 static inline float fe__most_lean(float half) { return fe__maxf(FE__CLEAR, 0.02f * half); }
 
-// The last choice stays while it holds the foot: so neither rounding nor a turn of the face changes the points.
+// The last choice stays while it holds the foot, so that neither rounding nor a turn of the face changes the points.
 typedef struct fe__choice {
     const uint32_t *ids;
-    int32_t count, left_out; // count 0: none, or it is not known
+    int32_t count, left_out; // count 0: there was no choice, or it is not known
 } fe__choice;
 
-// The foot is where the load on a polygon presses, in its plane. Which way is out counts from amid the vertices, or
-// from the origin where these come by and by: the choice of some of them must not depend on the others.
+// The foot is the centre of pressure: the point in the polygon's plane where the load on it presses. Which way is out
+// is measured from the middle of the vertices; from the origin if the vertices come in portions, because the choice
+// among one portion must not depend on the others.
 typedef struct fe__foot {
     int32_t is_known;
     float u, v;
-    int32_t from_origin, is_aimed; // is_aimed: it chooses, wherever it is
-    fe__choice last;               // the ids are those of the vertices
+    int32_t from_origin;
+    int32_t is_aimed; // The foot chooses the points wherever it is.
+    fe__choice last;  // The ids are those of the vertices.
 } fe__foot;
 
-// Four hold the foot up to this share of the way from their middle to their edge; where they do not, it chooses, and
-// then until it is back at that share. One that leans over less is held by any four.
+// Any four points hold the foot up to FE__FOOT_MOST of the way from their middle to their edge. Beyond that the foot
+// chooses the points, until it is back at FE__FOOT_BACK. A load that leans over less than FE__FOOT_LEAST of the way is
+// held by any four.
 #define FE__FOOT_MOST 0.8f
 #define FE__FOOT_BACK 0.5f
 #define FE__FOOT_LEAST 0.25f
 
-// A choice of some of a face's points leaves out
+// A choice of some of a face's points leaves out ...
 enum {
-    FE_LEFT_NONE, // nothing that touches
-    FE_LEFT_SOME,
-    FE_LEFT_SIDES, // some, but not where the load leans: the first two are the edge there
-    FE_LEFT_REST,  // the same of a rim whose points are aimed: they follow the load, not the body
+    FE_LEFT_NONE,  // nothing that touches
+    FE_LEFT_SOME,  // some that touch
+    FE_LEFT_SIDES, // some, but not on the side to which the load leans: the first two chosen are the edge there
+    FE_LEFT_REST,  // the same as SIDES for a rim whose points are aimed: they follow the load, not the body
 };
 
-// Leaves at most four: those of the last choice, or the deepest, the farthest from it, and those that span most area on
-// either side. Of these, what is clear of the face gives way to what lies below. Where the foot is known and they
-// hardly hold it, the two of the edge that it leans over, and the farthest behind on either side. Of vertices that are
-// equal within `tie` (m) the first, so that rounding errors do not choose. Where some of the others may touch too,
-// *left_out becomes FE_LEFT_*. `foot` may be NULL, with left_out: then nobody asks.
+// Leaves at most four vertices: those of the last choice, or the deepest, the farthest from it, and those that span
+// most area on either side. Of these, one that is clear of the face gives way to one that lies below. If the foot is
+// known and they hardly hold it, it takes the two of the edge that it leans over, and the farthest behind on either
+// side. Of vertices that are equal within `tie` (m) the first counts, so that rounding errors do not choose. *left_out
+// becomes FE_LEFT_*, by whether some of the others may touch too. `foot` may be NULL together with left_out.
 int32_t fe__reduce_to_four(fe__clip_vertex *vertices, int32_t count, float tie, const fe__foot *foot,
                            int32_t *left_out);
 

@@ -1,4 +1,4 @@
-// flat.c - the box: half extents.
+// flat.c - the traits of box, plane and triangle (form_table.c), and the questions to a solid (flat.h).
 #include "collision/form/flat.h"
 
 #include "collision/form/form.h"
@@ -6,7 +6,6 @@
 #include "collision/form/hull.h"
 
 // ---- box ------------------------------------------------------------------------------------------------------------
-
 fe__mass fe__box_mass(const fe__form *form, double density)
 {
     fe_dvec3 h = fe__widen(form->half);
@@ -32,7 +31,7 @@ fe_dvec3 fe__box_support(const fe__form *form, fe_dvec3 direction)
                       direction.z < 0.0 ? -half.z : half.z};
 }
 
-// Corners in turn around the outward axis; of equal axes the lowest.
+// The corners turn left around the outward axis. If several axes are equally near the direction, the first one counts.
 void fe__box_face(const fe__form *box, fe_vec3 direction, fe__face *face)
 {
     const float d[3] = {direction.x, direction.y, direction.z}, half[3] = {box->half.x, box->half.y, box->half.z};
@@ -54,17 +53,10 @@ void fe__box_face(const fe__form *box, fe_vec3 direction, fe__face *face)
 }
 
 // ---- plane ----------------------------------------------------------------------------------------------------------
-// The half space normal . p <= distance.
-
-static fe__bounds everywhere(void)
-{
-    double inf = (double)INFINITY;
-    return (fe__bounds){{-inf, -inf, -inf}, {inf, inf, inf}};
-}
-
 fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose)
 {
-    fe__bounds bounds = everywhere();
+    const double inf = (double)INFINITY;
+    fe__bounds bounds = {{-inf, -inf, -inf}, {inf, inf, inf}};
     fe_dvec3 n = fe__drotate(pose->rotation, fe__widen(form->normal)), p = pose->position;
     double d = (double)form->distance;
     if (n.y == 0.0 && n.z == 0.0) *(n.x > 0.0 ? &bounds.high.x : &bounds.low.x) = p.x + n.x * d;
@@ -73,7 +65,7 @@ fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose)
     return bounds;
 }
 
-// n . p <= d + gap somewhere in the box
+// The box's corner that is lowest along n has n . p <= d + gap.
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box, double gap)
 {
     fe_dvec3 n = fe__drotate(pose->rotation, fe__widen(plane->normal));
@@ -90,7 +82,6 @@ void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away)
 }
 
 // ---- triangle -------------------------------------------------------------------------------------------------------
-// One of a heightfield or a mesh: three vertices, turning left around the side that counts.
 
 fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose)
 {
@@ -105,12 +96,12 @@ fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose)
 
 float fe__triangle_reach(const fe__form *form, fe_vec3 centre)
 {
-    float reach = 0.0f;
-    for (int32_t i = 0; i < 3; ++i) reach = fe__maxf(reach, fe__length(fe__sub(form->vertex[i], centre)));
-    return reach;
+    float radius = 0.0f;
+    for (int32_t i = 0; i < 3; ++i) radius = fe__maxf(radius, fe__length(fe__sub(form->vertex[i], centre)));
+    return radius;
 }
 
-// of equally far vertices the first
+// If several vertices are equally far, the first one counts.
 fe_dvec3 fe__triangle_support(const fe__form *form, fe_dvec3 direction)
 {
     const fe_vec3 *vertex = form->vertex;
@@ -122,7 +113,7 @@ fe_dvec3 fe__triangle_support(const fe__form *form, fe_dvec3 direction)
     return far;
 }
 
-// the side that looks along the direction: turned round, its vertices run the other way
+// The side that looks along the direction. The vertices of the lower side run the other way.
 void fe__triangle_face(const fe__form *triangle, fe_vec3 direction, fe__face *face)
 {
     const fe_vec3 *v = triangle->vertex;
@@ -135,12 +126,11 @@ void fe__triangle_face(const fe__form *triangle, fe_vec3 direction, fe__face *fa
 }
 
 // ---- solid ----------------------------------------------------------------------------------------------------------
-
-// So far inside its rim a face is asked, m, and as a share of its half width: more than is flush and a body sinks, less
-// than the lowest step that is felt
+// A face is asked so far inside its rim, m, and at most this share of its half width. It is more than a flush gap and
+// the depth to which a body sinks, and less than the lowest step that is felt.
 #define INSIDE 0.0035f
 #define INSIDE_SHARE 0.1f
-// sin^2 of what is no face's normal: 2 seconds of arc
+// A vector is no face's normal if sin^2 of their angle is this or more: 2 seconds of arc.
 #define LEANS 1e-10f
 
 static fe_vec3 local_normal(const fe__form *form, int32_t face)
@@ -150,7 +140,7 @@ static fe_vec3 local_normal(const fe__form *form, int32_t face)
     return fe__vec3(face / 2 == 0 ? sign : 0.0f, face / 2 == 1 ? sign : 0.0f, face / 2 == 2 ? sign : 0.0f);
 }
 
-// over the form's origin
+// The height of the face's plane over the form's origin.
 static float local_height(const fe__form *form, int32_t face)
 {
     if (fe__form_is_hull(form))
@@ -176,17 +166,8 @@ int32_t fe__solid_face_below(const fe__solid *s, int32_t face, fe_vec3 p, float 
     return -1;
 }
 
-static int32_t holds(const fe__form *form, fe_vec3 p)
-{
-    if (!fe__form_is_hull(form))
-        return fe__absf(p.x) <= form->half.x + FE__FLUSH && fe__absf(p.y) <= form->half.y + FE__FLUSH &&
-               fe__absf(p.z) <= form->half.z + FE__FLUSH;
-    for (int32_t i = 0; i < form->hull->face_count; ++i)
-        if (fe__dot(local_normal(form, i), p) > local_height(form, i) + FE__FLUSH) return 0;
-    return 1;
-}
-
-static float reach(const fe__form *form, fe_vec3 m)
+// The greatest m . x of the form's points x.
+static float farthest_along(const fe__form *form, fe_vec3 m)
 {
     if (fe__form_is_hull(form)) return fe__dot(m, fe__narrow(fe__form_support(form, fe__widen(m))));
     return fe__absf(m.x) * form->half.x + fe__absf(m.y) * form->half.y + fe__absf(m.z) * form->half.z;
@@ -194,11 +175,18 @@ static float reach(const fe__form *form, fe_vec3 m)
 
 int32_t fe__solid_goes_on(const fe__solid *s, fe_vec3 q, fe_vec3 m)
 {
+    const fe__form *form = s->form;
     fe_vec3 p = fe__mul_transposed(&s->axes, fe__sub(q, s->centre));
-    if (!holds(s->form, p)) return 0;
+    if (fe__form_is_hull(form)) {
+        for (int32_t i = 0; i < form->hull->face_count; ++i)
+            if (fe__dot(local_normal(form, i), p) > local_height(form, i) + FE__FLUSH) return 0;
+    } else if (!(fe__absf(p.x) <= form->half.x + FE__FLUSH && fe__absf(p.y) <= form->half.y + FE__FLUSH &&
+                 fe__absf(p.z) <= form->half.z + FE__FLUSH)) {
+        return 0;
+    }
     fe_vec3 along = fe__mul_transposed(&s->axes, m);
-    float far = reach(s->form, along), here = fe__dot(along, p);
-    const float least = 1e-5f, rounding = 1e-6f; // m; of the distances
+    float far = farthest_along(form, along), here = fe__dot(along, p);
+    const float least = 1e-5f, rounding = 1e-6f; // m; share of the distances
     return far - here > least + rounding * (fe__absf(far) + fe__absf(here));
 }
 
@@ -220,7 +208,7 @@ int32_t fe__solid_is_level_at(const fe__solid *s, fe_vec3 p, fe_vec3 f)
 
 fe_vec3 fe__solid_raise(const fe__solid *s, fe_vec3 q, fe_vec3 m, float most)
 {
-    float below = reach(s->form, fe__mul_transposed(&s->axes, m)) - fe__dot(m, fe__sub(q, s->centre));
+    float below = farthest_along(s->form, fe__mul_transposed(&s->axes, m)) - fe__dot(m, fe__sub(q, s->centre));
     return fe__add_scaled(q, fe__clampf(below, 0.0f, most), m);
 }
 
@@ -238,40 +226,34 @@ fe_vec3 fe__solid_draw_in(const fe__solid *s, fe_vec3 q)
     return fe__add(s->centre, fe__mul(&s->axes, p));
 }
 
-// ---- faces ---------------------------------------------------------------------------------------------------------
-// towards 0, unless it is the face's own axis
+// A box's coordinate moved towards 0, unless it is the one along the face's own axis.
 static float inwards(float x, float half, int32_t is_axis)
 {
     float step = fe__minf(fe__minf(INSIDE, INSIDE_SHARE * half), fe__absf(x));
     return is_axis ? x : x > 0.0f ? x - step : x + step;
 }
 
-static fe_vec3 off_rim_of_box(fe_vec3 half, fe_vec3 p, fe_vec3 m)
-{
-    float xx = m.x * m.x, yy = m.y * m.y, zz = m.z * m.z;
-    int32_t x = yy + zz < LEANS, y = xx + zz < LEANS, z = xx + yy < LEANS;
-    if (!(x || y || z)) return p;
-    return fe__vec3(inwards(p.x, half.x, x), inwards(p.y, half.y, y), inwards(p.z, half.z, z));
-}
-
-// towards the middle of the face's vertices
-static fe_vec3 off_rim_of_hull(const fe__form *form, fe_vec3 p, fe_vec3 m)
-{
-    fe__face face;
-    fe__form_face(form, m, &face);
-    fe_vec3 across = fe__cross(face.normal, m), middle = {0.0f, 0.0f, 0.0f};
-    if (!(fe__dot(across, across) < LEANS)) return p;
-    for (int32_t i = 0; i < face.count; ++i) middle = fe__add_scaled(middle, 1.0f / (float)face.count, face.vertex[i]);
-    fe_vec3 way = fe__sub(middle, p);
-    way = fe__sub(way, fe__scale(fe__dot(way, face.normal), face.normal));
-    float length = fe__length(way), step = fe__minf(INSIDE, INSIDE_SHARE * length);
-    return length > 0.0f ? fe__add_scaled(p, step / length, way) : p;
-}
-
 fe_vec3 fe__solid_off_rim(const fe__solid *s, fe_vec3 q, fe_vec3 m)
 {
     fe_vec3 along = fe__mul_transposed(&s->axes, m), p = fe__mul_transposed(&s->axes, fe__sub(q, s->centre));
-    fe_vec3 moved =
-        fe__form_is_hull(s->form) ? off_rim_of_hull(s->form, p, along) : off_rim_of_box(s->form->half, p, along);
-    return fe__add(s->centre, fe__mul(&s->axes, moved));
+    if (fe__form_is_hull(s->form)) {
+        fe__face face;
+        fe__form_face(s->form, along, &face);
+        fe_vec3 across = fe__cross(face.normal, along), middle = {0.0f, 0.0f, 0.0f};
+        if (fe__dot(across, across) < LEANS) {
+            // The point moves in the face's plane, towards the middle of the vertices.
+            for (int32_t i = 0; i < face.count; ++i)
+                middle = fe__add_scaled(middle, 1.0f / (float)face.count, face.vertex[i]);
+            fe_vec3 way = fe__sub(middle, p);
+            way = fe__sub(way, fe__scale(fe__dot(way, face.normal), face.normal));
+            float length = fe__length(way), step = fe__minf(INSIDE, INSIDE_SHARE * length);
+            if (length > 0.0f) p = fe__add_scaled(p, step / length, way);
+        }
+    } else {
+        fe_vec3 half = s->form->half;
+        float xx = along.x * along.x, yy = along.y * along.y, zz = along.z * along.z;
+        int32_t x = yy + zz < LEANS, y = xx + zz < LEANS, z = xx + yy < LEANS;
+        if (x || y || z) p = fe__vec3(inwards(p.x, half.x, x), inwards(p.y, half.y, y), inwards(p.z, half.z, z));
+    }
+    return fe__add(s->centre, fe__mul(&s->axes, p));
 }

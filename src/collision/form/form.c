@@ -1,4 +1,4 @@
-// form.c - what several kinds of forms have in common.
+// form.c - traits that several kinds of forms share (form_table.c), and the check of forms that come from bytes.
 #include "collision/form/form.h"
 
 #include "collision/form/form_kinds.h"
@@ -6,7 +6,7 @@
 
 #include <float.h>
 
-// ---- common ---------------------------------------------------------------------------------------------------------
+// ---- shared traits --------------------------------------------------------------------------------------------------
 
 fe__mass fe__no_mass(const fe__form *form, double density)
 {
@@ -39,7 +39,7 @@ fe_dvec3 fe__rotated_widths(fe_quat q, fe_dvec3 half)
                       fe__absd(xz - wy) * half.x + fe__absd(yz + wx) * half.y + fe__absd(1.0 - xx - yy) * half.z};
 }
 
-// half is 0 but for a box, half_height is 0 but for a capsule: the core is the box of both
+// `half` is 0 but for a box, `half_height` is 0 but for a capsule: the core's box has the sum of both.
 fe__bounds fe__core_bounds(const fe__form *form, const fe__pose *pose)
 {
     fe_dvec3 half = fe__widen(form->half), p = pose->position;
@@ -80,7 +80,7 @@ void fe__point_face(const fe__form *form, fe_vec3 direction, fe__face *face)
     face->id = 0;
 }
 
-// ---- sound ----------------------------------------------------------------------------------------------------------
+// ---- validation -----------------------------------------------------------------------------------------------------
 
 fe__form_numbers fe__numbers_of_form(const fe__form *form)
 {
@@ -100,29 +100,30 @@ fe__form fe__form_of_numbers(const fe__form_numbers *numbers)
     return form;
 }
 
-static int32_t is_length(float x) { return x >= FE_LEAST_LENGTH && x <= FE_MAX_LENGTH; }
-static int32_t is_half(float x) { return x >= 0.5f * FE_LEAST_LENGTH && x <= FE_MAX_LENGTH; }
-static int32_t are_zero(float x, float y, float z) { return x == 0.0f && y == 0.0f && z == 0.0f; }
-static int32_t has_half(const fe__form *f) { return is_half(f->half.x) && is_half(f->half.y) && is_half(f->half.z); }
+static int32_t is_half_width(float x) { return x >= 0.5f * FE_LEAST_LENGTH && x <= FE_MAX_LENGTH; }
 
+// Each kind needs its own fields within the API's ranges, and 0 in all others.
 int32_t fe__form_is_sound(const fe__form *f)
 {
-    int32_t plain = are_zero(f->normal.x, f->normal.y, f->normal.z) && f->distance == 0.0f;
-    int32_t round = are_zero(f->half.x, f->half.y, f->half.z) && plain, solid = f->half_height == 0.0f && plain;
+    int32_t no_radius = f->radius == 0.0f, no_height = f->half_height == 0.0f, no_distance = f->distance == 0.0f;
+    int32_t no_half = f->half.x == 0.0f && f->half.y == 0.0f && f->half.z == 0.0f;
+    int32_t no_normal = f->normal.x == 0.0f && f->normal.y == 0.0f && f->normal.z == 0.0f;
+    int32_t has_radius = f->radius >= FE_LEAST_LENGTH && f->radius <= FE_MAX_LENGTH;
+    int32_t has_half = is_half_width(f->half.x) && is_half_width(f->half.y) && is_half_width(f->half.z);
     fe_dvec3 n = fe__widen(f->normal);
     switch (f->type) {
     case FE__FORM_SPHERE:
-        return is_length(f->radius) && f->half_height == 0.0f && round;
+        return has_radius && no_height && no_half && no_normal && no_distance;
     case FE__FORM_CAPSULE:
-        return is_length(f->radius) && is_half(f->half_height) && round;
+        return has_radius && is_half_width(f->half_height) && no_half && no_normal && no_distance;
     case FE__FORM_BOX:
-        return has_half(f) && f->radius == 0.0f && solid;
+        return has_half && no_radius && no_height && no_normal && no_distance;
     case FE__FORM_CYLINDER:
     case FE__FORM_CONE:
-        return has_half(f) && f->half.x == f->half.z && f->radius == 0.0f && solid;
+        return has_half && f->half.x == f->half.z && no_radius && no_height && no_normal && no_distance;
     case FE__FORM_PLANE:
-        return fe__absd(fe__ddot(n, n) - 1.0) < 1e-6 && fe__absf(f->distance) <= FE_MAX_LOCAL && f->radius == 0.0f &&
-               f->half_height == 0.0f && are_zero(f->half.x, f->half.y, f->half.z);
+        return fe__absd(fe__ddot(n, n) - 1.0) < 1e-6 && fe__absf(f->distance) <= FE_MAX_LOCAL && no_radius &&
+               no_height && no_half;
     default:
         return 0;
     }

@@ -1,15 +1,9 @@
-// form.h - the forms of shapes: what they weigh, where they end, how they look from a direction.
+// form.h - the forms of shapes: mass, bounds, support function and faces of each kind; and the record of a shape.
 //
-// A form lives in the frame of its shape. Everything below the world knows forms and poses only; bodies and shapes are
-// the world's. Only collision/ asks for the kind of a form; all others ask for its traits.
-//
-// A new form takes
-//   - its kind below (before the triangle; of two forms the later one is A in fe__collide), and its fields in fe__form,
-//   - a file here with what fe__form_traits lists, and its line in form_table.c,
-//   - in manifold/ a kernel for each partner that deserves one, in the table of collide.c; the general convex path
-//   serves all others,
-//   - in cast/ its ray and its nearest point, and its line in cast/cast_table.c,
-//   - its public number and fields in feather.h, which the API reads in one place.
+// The API makes forms from fe_geometry; the narrow phase, the casts and the queries read them. A form lives in the
+// frame of its shape. Code below world/ knows forms and poses only. Only collision/ asks for the kind of a form; all
+// others ask for its traits. CONTRIBUTING.md lists what a new form takes; its kind goes before the triangle, and of two
+// forms the one with the later kind is A in fe__collide.
 #ifndef FE_COLLISION_FORM_FORM_H
 #define FE_COLLISION_FORM_FORM_H
 #include "collision/form/clip.h"
@@ -18,9 +12,8 @@
 #include <stddef.h>
 
 // ---- form -----------------------------------------------------------------------------------------------------------
-
 // The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields and meshes hand
-// out theirs one by one. A compound is no form to touch: its parts are (compound.h).
+// out theirs one by one. Nothing touches a compound as such: its parts collide (compound.h).
 typedef enum fe__form_type {
     FE__FORM_SPHERE,
     FE__FORM_CAPSULE,
@@ -36,13 +29,18 @@ typedef enum fe__form_type {
     FE__FORM_TYPES
 } fe__form_type;
 
-// sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance,
-// normal of length 1. Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius.
-// cylinder, cone: half, the half widths of the box around it: x and z are the radius of the rim, y half the height
-// along y. A cone's tip is at +half.y, its base at -half.y. They are cores of their own; their radius is 0. triangle:
-// vertices, turning left around the side that counts. heightfield, mesh: its record's index, its bounds (heightfield.h,
-// mesh.h). compound: its record's index. hull: its record's index, where that is, and offset + scale x is the form's
-// point for the hull's point x (hull.h).
+// A form is a core swelled by a radius. Fields that a kind does not use are 0.
+//
+//   sphere       radius; the core is the origin
+//   capsule      half_height along y, radius; the core is a segment
+//   box          half, the half widths; no radius
+//   plane        the half space normal . p <= distance; |normal| = 1
+//   cylinder     half: x and z are the radius of the rim, y is half the height along y; no radius
+//   cone         the same; its tip is at +half.y, its base at -half.y
+//   triangle     vertices, turning left around the side that counts
+//   heightfield  index of its record, bounds (heightfield.h); a mesh has the same (mesh.h)
+//   compound     index of its record (compound.h)
+//   hull         index of its record, its address; offset + scale x is the form's point for the hull's point x (hull.h)
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -55,13 +53,13 @@ typedef struct fe__form {
         };
         fe_vec3 vertex[3];
         struct {
-            int32_t field; // its asset in the store
+            int32_t field; // index of the asset's record in the store
             fe_vec3 low, high;
         };
         struct {
-            int32_t hull_field; // field
+            int32_t hull_field; // the same number as `field`
             float scale;        // > 0
-            fe_vec3 offset;     // of the hull's frame in the form's, m
+            fe_vec3 offset;     // origin of the hull's frame in the form's frame, m
             const struct fe__hull *hull;
         };
     };
@@ -73,21 +71,20 @@ typedef struct fe__pose {
     fe_quat rotation;
 } fe__pose;
 
-// pose of `local` (position, rotation in the body's frame) on a body at `body`
+// The world pose of a shape that stands at (position, rotation) in the frame of a body at `body`.
 static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_quat rotation)
 {
     return (fe__pose){fe__dadd(body->position, fe__drotate(body->rotation, fe__widen(position))),
                       fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// mass, kg, principal moments about the centre of mass, kg m2, and that centre in the form's frame, m. `axes` turns the
-// principal axes into the form's where `is_turned`; else they are the same. A static form has none
+// Forms for static bodies alone have mass 0.
 typedef struct fe__mass {
-    float mass;
-    fe_vec3 inertia;
-    fe_vec3 centre;
-    int32_t is_turned;
-    fe_quat axes;
+    float mass;        // kg
+    fe_vec3 inertia;   // principal moments about the centre of mass, kg m2
+    fe_vec3 centre;    // centre of mass in the form's frame, m
+    int32_t is_turned; // 0: the principal axes are the form's, and `axes` means nothing
+    fe_quat axes;      // turns the principal axes into the form's
 } fe__mass;
 
 typedef struct fe__bounds {
@@ -102,23 +99,23 @@ static inline void fe__bounds_add(fe__bounds *all, const fe__bounds *b)
                            fe__maxd(all->high.z, b->high.z)};
 }
 
-struct fe__face; // form.h
+struct fe__face; // below
 
 // ---- traits --------------------------------------------------------------------------------------------------------
 typedef struct fe__form_traits {
-    const char *name;    // in the sentences of errors
+    const char *name;    // The sentences of errors say it.
     int32_t geometry;    // fe_geometry_type, -1: not public
-    uint8_t static_only; // without mass: on static bodies alone,
-    uint8_t is_carried;  // or on kinematic ones too
-    uint8_t is_ball;     // no rotation changes it, and it touches at one point
-    uint8_t flat_faces;  // a polyhedron of its half widths, or a triangle
-    uint8_t curved;      // a core with a rim: cylinder, cone
-    uint8_t is_hull;     // known by an asset's hull (hull.h)
-    uint8_t unbounded;   // no box holds it, so that it is in no tree
-    uint8_t is_field;    // a surface of triangles (ground.h), touched in patches
-    uint8_t has_asset;   // shares what it is made of: fe__form.field,
-    uint8_t has_scale;   // of which there are records for each scale
-    uint8_t of_parts;    // stands for its parts, and is in no tree
+    uint8_t static_only; // The form has no mass: only static bodies may have it.
+    uint8_t is_carried;  // Kinematic bodies may have it too.
+    uint8_t is_ball;     // No rotation changes it, and it touches at one point.
+    uint8_t flat_faces;  // It is a polyhedron given by its half widths, or a triangle.
+    uint8_t curved;      // The core has a rim: cylinder, cone.
+    uint8_t is_hull;     // An asset's hull holds its vertices and faces (hull.h).
+    uint8_t unbounded;   // No box holds it, so that it is in no tree.
+    uint8_t is_field;    // It is a surface of triangles (ground.h) and may touch in several manifolds.
+    uint8_t has_asset;   // Shapes share its data by fe__form.field.
+    uint8_t has_scale;   // The asset has a record for each scale.
+    uint8_t of_parts;    // It stands for its parts, and is in no tree.
     fe__mass (*mass)(const fe__form *form, double density);
     fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
     float (*reach)(const fe__form *form, fe_vec3 centre);
@@ -141,41 +138,46 @@ static inline int32_t fe__form_is_field(const fe__form *form) { return fe__trait
 static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__traits_of(form)->has_asset; }
 static inline int32_t fe__form_is_of_parts(const fe__form *form) { return fe__traits_of(form)->of_parts; }
 
-int32_t fe__form_of_geometry(int32_t geometry); // the kind with that public number, -1: none
+// Returns the kind with that public number, -1: none
+int32_t fe__form_of_geometry(int32_t geometry);
 
-// ---- what each form tells of itself --------------------------------------------------------------------------------
+// ---- mass, bounds, widths ------------------------------------------------------------------------------------------
 static inline fe__mass fe__form_mass(const fe__form *form, float density)
 {
     return fe__traits_of(form)->mass(form, (double)density);
 }
 // Bounds at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its
-// normal faces, if that is an axis; callers treat what is unbounded apart.
+// normal faces, if that is an axis; callers treat unbounded forms apart.
 static inline fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
 {
     return fe__traits_of(form)->bounds(form, pose);
 }
-// largest distance from `centre` (form's frame) to a point of the form, m; 0 for what is static only
+// Bounding radius: the largest distance from `centre` (form's frame) to a point of the form, m; 0 for planes,
+// heightfields and compounds.
 static inline float fe__form_reach(const fe__form *form, fe_vec3 centre)
 {
     return fe__traits_of(form)->reach(form, centre);
 }
-// smallest half width of the form, m: what a fast body may not outrun; FLT_MAX for planes and what is of triangles
+// The smallest half width of the form, m: a fast body must not move farther than that unseen. FLT_MAX for planes,
+// heightfields, meshes and compounds
 static inline float fe__form_thickness(const fe__form *form) { return fe__traits_of(form)->thickness(form); }
-// the form without its outermost layer, `by` (m, less than its thickness) thick
+// The form without its outermost layer, which is `by` thick (m, less than the form's thickness).
 static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }
 
-// radius with which the form rolls, m: 0 for a box
+// The radius with which the form rolls, m: 0 for a box.
 static inline float fe__form_roundness(const fe__form *form)
 {
     return fe__form_is_curved(form) ? form->half.x : form->radius;
 }
-// How far below the surface, along the unit normal n (form's frame) on which it is touched, lies what keeps its place
-// when the form rolls, m: of a round one its radius. A rim's circle turns about the y axis: what it touches at stays as
-// deep. To second order in the turn, r s = pivot s^2 with s = |n across the axis|. Where the face is touched, nothing
-// rolls. A cone's side is touched along its length, and the axis is farther below it the farther it is from the tip.
-// Within a step the points take along what they bear by as much too far, or not far enough, as their pivot is short or
-// long. So it is that of the point of the side under the centre of mass, 3/2 h from the tip, where a cone that lies is
-// borne: then no moment is left about the line. 3/2 h sin a, tan a = r / 2h, is 3/2 of the thickness.
+// The pivot: how far below the surface lies the point that keeps its place when the form rolls, m. It is measured along
+// the unit normal n (form's frame) at which the form is touched. A round form's pivot is its radius. A rim's circle
+// turns about the y axis, so that the point of touch stays as deep: to second order in the turn, r s = pivot s^2 with
+// s = |n across the axis|. A form that is touched on its flat face does not roll: 0.
+//
+// A cone's side is touched along its length, and its axis is farther below the side the farther it is from the tip.
+// Within a step a contact point moves its load too far, or not far enough, by as much as its pivot is too short or too
+// long. So all points of the side have the pivot of the point under the centre of mass, 3/2 h from the tip, which bears
+// a cone that lies: then no moment is left about the line. It is 3/2 h sin a, tan a = r / 2h, or 3/2 of the thickness.
 static inline float fe__form_pivot(const fe__form *form, fe_vec3 n)
 {
     if (!fe__form_is_curved(form)) return form->radius;
@@ -184,36 +186,33 @@ static inline float fe__form_pivot(const fe__form *form, fe_vec3 n)
     return form->type == FE__FORM_CONE ? 1.5f * fe__form_thickness(form) : form->half.x / across;
 }
 
-// ---- points --------------------------------------------------------------------------------------------------------
-// A ball without size: the probe of a ray
+// ---- points and planes ---------------------------------------------------------------------------------------------
+// A ball of radius 0 is the probe of a ray.
 static inline fe__form fe__point_form(void) { return (fe__form){.type = FE__FORM_SPHERE}; }
 static inline int32_t fe__form_is_point(const fe__form *form)
 {
     return form->type == FE__FORM_SPHERE && form->radius == 0.0f;
 }
-
-// ---- planes (surface.c)
-// ---------------------------------------------------------------------------------------------- Does the box reach
-// into the half space?
+// Does the box come as near as `gap`, m, to the half space?
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box, double gap);
-// The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off
+// Moves the plane into a frame whose origin is `away` (world axes) from that of its shape. The distance is computed in
+// double, so that it is as exact a thousand kilometres off.
 void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away);
 
 // ---- shape ----------------------------------------------------------------------------------------------------------
-// The record of a shape: form, local pose, material, filter; where it is now and its box in the broad phase.
 
 enum {
     FE__SHAPE_TRIGGER = 1,
-    FE__SHAPE_CENTRED = 2, // local pose is the identity
+    FE__SHAPE_CENTRED = 2, // The local pose is the identity.
     FE__SHAPE_IN_TREE = 4,
-    FE__SHAPE_IN_PLANES = 8, // planes are in a list, not in a tree
-    FE__SHAPE_JUDGED = 32,   // the pair filter judges its new pairs
-    FE__SHAPE_ONE_WAY = 64,  // holds back only what comes against one_way
-    FE__SHAPE_MOVED = 16     // in the list of proxies whose box is new: looks for pairs in the next step
+    FE__SHAPE_IN_PLANES = 8, // Planes are in a list, not in a tree.
+    FE__SHAPE_MOVED = 16,    // The box is new and in the list of such proxies: it looks for pairs in the next step.
+    FE__SHAPE_JUDGED = 32,   // The pair filter judges its new pairs.
+    FE__SHAPE_ONE_WAY = 64   // It holds back only bodies that come against one_way.
 };
 
-// A serial holds, from the low bits, the number of a part + 1 (0: no part), then that of creation. So parts come behind
-// their compound, and before what was created after it.
+// A serial holds the number of a part + 1 in its low bits (0: no part), and above them the number of the creation. So
+// parts are ordered behind their compound, and before all shapes that were created after it.
 enum { FE__PART_BITS = 16 };
 static inline int32_t fe__part_of_serial(uint64_t serial)
 {
@@ -221,12 +220,12 @@ static inline int32_t fe__part_of_serial(uint64_t serial)
 }
 static inline uint64_t fe__serial_of_whole(uint64_t serial) { return serial >> FE__PART_BITS << FE__PART_BITS; }
 
-// First what a query reads: two cache lines.
+// The record of a shape. The fields that queries read come first: they are two cache lines.
 typedef struct fe__shape {
     uint32_t layer, mask;
     uint32_t flags; // FE__SHAPE_*
     int32_t body;
-    fe__pose pose; // in the world, follows the body
+    fe__pose pose; // in the world; follows the body
     fe__form form;
     fe_vec3 local_position; // m, body's frame
     fe_quat local_rotation;
@@ -234,28 +233,27 @@ typedef struct fe__shape {
     int32_t group;   // 0: none
     uint32_t events; // fe_shape_events
     float density;
-    float arm; // from the body's centre of mass to the farthest point of its core, m; 0 for what is static only
+    float arm; // distance of the core's farthest point from the body's centre of mass, m; 0: a static only form
     fe_vec3 surface_velocity;
-    fe_vec3 one_way;        // its own frame, any length but zero
-    int32_t next, previous; // of the body's shapes, in the order of creation
-    uint64_t serial;        // of creation and of the part, never reused by another shape
-    uint64_t body_serial;   // of its body
+    fe_vec3 one_way;        // in the shape's frame; any length but zero
+    int32_t next, previous; // links of the list of the body's shapes, in the order of creation
+    uint64_t serial;        // creation and part; no other shape ever gets it again
+    uint64_t body_serial;   // the serial of the body
     uint64_t user_data;
-    int32_t next_user; // of the same asset, -1: none
-    int32_t parent;    // the shape whose part it is, right before the parts in the body's list; -1: it is no part
+    int32_t next_user; // the next shape with the same asset, -1: none
+    int32_t parent;    // the compound's shape, which stands right before its parts in the body's list; -1: no part
 } fe__shape;
 
-// What the caller knows: of a part, its compound
+// The shape that the caller knows: the compound's if `shape` is a part.
 static inline int32_t fe__whole_shape(const fe__shape *shapes, int32_t shape)
 {
     int32_t parent = shapes[shape].parent;
     return parent >= 0 ? parent : shape;
 }
 
-// ---- sound ----------------------------------------------------------------------------------------------------------
-// Forms as numbers, and forms that come from bytes.
-
-// What is no asset's of a form: all there is of one without an asset, and the kind alone of another
+// ---- validation ----------------------------------------------------------------------------------------------------
+// The numbers of a form that are not in an asset: snapshots and assets store them. A form with an asset has only its
+// kind here.
 typedef struct fe__form_numbers {
     int32_t kind; // fe__form_type
     float radius, half_height, distance;
@@ -264,33 +262,28 @@ typedef struct fe__form_numbers {
 fe__form_numbers fe__numbers_of_form(const fe__form *form);
 fe__form fe__form_of_numbers(const fe__form_numbers *numbers);
 
-// Is it one that the API could have made, of those without an asset?
+// Could the API have made this form? Forms with an asset are not valid here: their assets are checked elsewhere.
 int32_t fe__form_is_sound(const fe__form *form);
-static inline int32_t fe__forms_are_alike(const fe__form *a, const fe__form *b)
-{
-    return a->type == b->type;
-} // in kind
-// Have they the same kind and the same numbers, or the same asset?
+// Are both of one kind?
+static inline int32_t fe__forms_are_alike(const fe__form *a, const fe__form *b) { return a->type == b->type; }
+// Have both the same kind and the same numbers, or the same asset?
 int32_t fe__forms_are_same(const fe__form *a, const fe__form *b);
 
 // ---- ray hit --------------------------------------------------------------------------------------------------------
-// Where a ray meets a form.
-
+// The point where a ray, origin + t translation, meets a form.
 typedef struct fe__ray_hit {
     double t;
-    fe_dvec3 normal; // unit, form's frame
-    double depth;    // > 0 when inside, else 0
-    int32_t inside;
-    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
-    int32_t index;    // of a triangle of the ground: see ground.h
+    fe_dvec3 normal;  // unit, form's frame
+    double depth;     // > 0: the ray begins inside, so deep, m
+    int32_t inside;   // The ray begins inside.
+    int32_t triangle; // number of a heightfield's or a mesh's triangle, or of a hull's face; -1: other forms
+    int32_t index;    // index of the triangle in ground.h
 } fe__ray_hit;
 
-// ---- support --------------------------------------------------------------------------------------------------------
-// What the general convex path knows of a form: the core's farthest point in a direction, and the face that
-// looks that way.
-//
-// With both a form is complete for GJK, EPA and the manifold. The swelling radius stays outside: it is added to the
-// distance of the cores.
+// ---- support and faces ---------------------------------------------------------------------------------------------
+// The general convex path knows a form by two functions: the core's farthest point in a direction, and the face that
+// looks that way. With both a form is complete for GJK, EPA and the manifold. The radius stays outside: it is added to
+// the distance of the cores.
 
 // The point of the core farthest along `direction` (any length), form's frame. Of equally far points always the same.
 static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction)
@@ -298,19 +291,20 @@ static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction
     return fe__traits_of(form)->support(form, direction);
 }
 
-// A face of the core: polygon (turning left around the normal), segment or point, form's frame.
+// A face of the core in the form's frame: a polygon that turns left around its normal, a segment or a point.
 typedef struct fe__face {
     int32_t count;  // > 2 polygon, 2 segment, 1 point
-    fe_vec3 normal; // unit; of a polygon only
+    fe_vec3 normal; // unit; only a polygon has one
     fe_vec3 vertex[FE_FACE_VERTICES];
-    uint32_t id;     // of the face within the form
-    float rim;       // a disc's radius, of whose rim the vertices are some points; else 0
-    int32_t low;     // of a disc: the vertex farthest along the direction asked for, or 0 where that is across the disc
-    int32_t pattern; // of a disc: FE_RIM_*
-    const fe_vec3 *foot; // given: where the load on the face presses, form's frame; NULL: nobody knows
+    uint32_t id; // the number of the face within the form
+    float rim;   // radius of a disc, if the vertices are points of its rim; 0: the face is no disc
+    // A disc's vertex farthest along the direction asked for; 0: the direction is across the disc
+    int32_t low;
+    int32_t pattern;     // FE_RIM_* of a disc
+    const fe_vec3 *foot; // input: the point where the load on the face presses, form's frame; NULL: it is not known
 } fe__face;
 
-// Of more corners than a face gives, those over which the load leans are among them
+// If the face has more corners than fit, those over which the load leans are among the ones given.
 static inline void fe__form_face_under(const fe__form *form, fe_vec3 direction, const fe_vec3 *foot, fe__face *face)
 {
     face->rim = 0.0f, face->pattern = FE_RIM_LEANS;

@@ -1,4 +1,5 @@
-// form_table.c - the traits of every form, see form.h.
+// form_table.c - the table of traits, a row for each kind of form (form.h). All dispatch by kind goes through it, but
+// for the kernels of manifold/ and the casts, which have tables of their own.
 #include "collision/form/form_kinds.h"
 
 const fe__form_traits fe__forms[FE__FORM_TYPES] = {

@@ -1,33 +1,35 @@
 // gjk.c - distance of two cores; see gjk.h.
 //
-// Sources: Gilbert, Johnson, Keerthi, A fast procedure for computing the distance between complex objects (1988); the
-// nearest points of triangle and tetrahedron by regions, Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.6.
+// Gilbert, Johnson, Keerthi, A fast procedure for computing the distance between complex objects in three-dimensional
+// space (1988); the nearest points of triangle and tetrahedron are found by regions as in Ericson, Real-Time Collision
+// Detection (2005), 5.1.5 and 5.1.6.
 #include "collision/form/gjk.h"
 
-enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
-#define OVERLAP_SIZE 1e-10    // of the cores' size: nearer than this they overlap; a million roundings
-#define CLOSE_SIZE 2e-14      // the same, where a hundred roundings are told apart
-#define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
-#define UNSURE 1e-15          // of the size: some roundings
-#define ROUGH 1e-12           // of the size: where weights put the nearest points no farther off, they will do
-#define CONVERGED 1e-13       // of the squared distance
-
-// of equally far corners the first
-static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
-{
-    int32_t far = 0;
-    double most = fe__ddot(corners[0], direction);
-    for (int32_t i = 1; i < 3; ++i) {
-        double along = fe__ddot(corners[i], direction);
-        if (along > most) most = along, far = i;
-    }
-    return corners[far];
-}
+enum { MAX_ITERATIONS = 64 }; // Boxes and segments need at most 12.
+// These are shares of the cores' size.
+#define OVERLAP_SIZE 1e-10 // Cores that are nearer than this, a million roundings, overlap;
+#define CLOSE_SIZE 2e-14   // in the close search, which resolves a hundred roundings, nearer than this.
+#define FLAT 1e-12         // A tetrahedron no higher than this has no inside.
+#define UNSURE 1e-15       // This much is some roundings.
+#define ROUGH 1e-12        // Weights are good if they put the nearest points no farther off than this.
+// The search ends when a step can gain no more than this share of the squared distance.
+#define CONVERGED 1e-13
+// This share of the distance a separating plane has to show in fe__gjk_distance_or_gap.
+#define GAP_SHARE 0.5
 
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
-    fe_dvec3 on_a = cores->corners ? farthest_of(cores->corners, direction) : fe__form_support(cores->a, direction);
-    fe_dvec3 q = {0.0, 0.0, 0.0};
+    fe_dvec3 on_a, q = {0.0, 0.0, 0.0};
+    if (cores->corners) { // The first of equally far corners counts.
+        double most = fe__ddot(cores->corners[0], direction);
+        on_a = cores->corners[0];
+        for (int32_t i = 1; i < 3; ++i) {
+            double along = fe__ddot(cores->corners[i], direction);
+            if (along > most) most = along, on_a = cores->corners[i];
+        }
+    } else {
+        on_a = fe__form_support(cores->a, direction);
+    }
     if (!fe__form_is_ball(cores->b)) {
         fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
                           -fe__ddot(cores->axis_z, direction)};
@@ -39,7 +41,8 @@ fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 }
 
 // ---- nearest points of simplices ------------------------------------------------------------------------------------
-// Each gives the weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
+// Each function gives the weights of the corners in the point nearest the origin; a corner that does not belong to the
+// nearest feature has the weight 0.
 static void weigh_line(fe_dvec3 a, fe_dvec3 b, double *weight)
 {
     fe_dvec3 ab = fe__dsub(b, a);
@@ -85,8 +88,9 @@ static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t
     return sum;
 }
 
-// The same point, of a triangle or a line across it: the supports of a curved surface come so near to each other that
-// the weights of a sliver say little, but its normal is good, as long as rounding, of the size, does not make it.
+// The same point, computed as the foot of the perpendicular from the origin on the triangle or the line. The supports
+// of a curved surface come so near to each other that the weights of a sliver say little; but its normal is good, as
+// long as it is longer than rounding, a share of `size`, makes it.
 static fe_dvec3 foot(const fe__vertex *vertex, const double *weight, int32_t count, double size)
 {
     fe_dvec3 a = vertex[0].difference;
@@ -103,16 +107,7 @@ static fe_dvec3 foot(const fe__vertex *vertex, const double *weight, int32_t cou
     return weighted(vertex, weight, count);
 }
 
-// 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side
-// is sure: 1.
-static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d, double size)
-{
-    fe_dvec3 normal = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
-    double origin = -fe__ddot(normal, a), other = fe__ddot(normal, fe__dsub(d, a)), flat = FLAT * size;
-    return !(origin * other > 0.0) || other * other <= flat * flat * fe__ddot(normal, normal);
-}
-
-// The nearest of the faces that the origin is outside of; 0 when it is inside all of them.
+// Finds the nearest point of the faces that the origin is outside of. 0: the origin is inside all faces
 static int32_t weigh_tetrahedron(const fe__vertex *vertex, double *weight, double size)
 {
     static const int8_t faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
@@ -121,7 +116,11 @@ static int32_t weigh_tetrahedron(const fe__vertex *vertex, double *weight, doubl
         const int8_t *k = faces[f];
         fe_dvec3 a = vertex[k[0]].difference, b = vertex[k[1]].difference, c = vertex[k[2]].difference,
                  d = vertex[k[3]].difference;
-        if (!is_outside(a, b, c, d, size)) continue;
+        // The origin is outside of abc if d lies on the other side of its plane. No side is sure in a tetrahedron as
+        // flat as rounding: there the origin is outside of every face.
+        fe_dvec3 normal = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
+        double origin = -fe__ddot(normal, a), other = fe__ddot(normal, fe__dsub(d, a)), flat = FLAT * size;
+        if (origin * other > 0.0 && !(other * other <= flat * flat * fe__ddot(normal, normal))) continue;
         double w[3];
         weigh_triangle(a, b, c, w);
         fe_dvec3 v = fe__dadd(fe__dadd(fe__dscale(w[0], a), fe__dscale(w[1], b)), fe__dscale(w[2], c));
@@ -155,41 +154,17 @@ int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count
     return drop_weightless(vertex, weight, count);
 }
 
-// ---- the walk towards the origin -----------------------------------------------------------------------------------
-static int32_t is_known(const fe__gjk *g, const fe__vertex *w)
-{
-    for (int32_t i = 0; i < g->count; ++i) {
-        fe_dvec3 d = fe__dsub(g->vertex[i].difference, w->difference);
-        if (fe__ddot(d, d) == 0.0) return 1;
-    }
-    return 0;
-}
-
-static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
-{
-    g->on_a = (fe_dvec3){0.0, 0.0, 0.0};
-    for (int32_t i = 0; i < g->count; ++i) g->on_a = fe__dadd(g->on_a, fe__dscale(weight[i], g->vertex[i].on_a));
-    g->on_b = fe__dsub(g->on_a, v);
-    g->way = fe__dscale(-1.0, v);
-    g->distance = sqrt(fe__ddot(v, v));
-}
-
-// How far the weighted point is from v, squared
+// ---- the search ----------------------------------------------------------------------------------------------------
+// The squared distance of the weighted point from v.
 static double miss_of(const fe__gjk *g, const double *weight, fe_dvec3 v)
 {
     fe_dvec3 d = fe__dsub(weighted(g->vertex, weight, g->count), v);
     return fe__ddot(d, d);
 }
 
-static void keep_nearer(const fe__gjk *g, const double try[3], fe_dvec3 v, double *best, double *weight)
-{
-    double miss = miss_of(g, try, v);
-    if (miss < *best) *best = miss, set_weights(weight, try[0], try[1], try[2]);
-}
-
-// The weights of a sliver, known from products of whole lengths, say little: they put the nearest points anywhere along
-// it. The areas that v, its foot, cuts from the triangle are as exact as the corners are about v; where they are none,
-// because the sliver is as flat as rounding, v lies at one of its sides.
+// The weights of a sliver come from products of whole lengths and say little: they put the nearest points anywhere
+// along it. The areas that v, its foot, cuts from the triangle are as exact as the corners are about v. If the sliver
+// is as flat as rounding it has no areas, and v lies at one of its sides.
 static void weigh_sliver(const fe__gjk *g, fe_dvec3 v, double *weight)
 {
     double best = g->count == 3 ? miss_of(g, weight, v) : 0.0, rough = ROUGH * g->size;
@@ -197,40 +172,49 @@ static void weigh_sliver(const fe__gjk *g, fe_dvec3 v, double *weight)
     fe_dvec3 p[3];
     for (int32_t i = 0; i < 3; ++i) p[i] = fe__dsub(g->vertex[i].difference, v);
     fe_dvec3 n = fe__dcross(fe__dsub(p[1], p[0]), fe__dsub(p[2], p[0]));
-    double area[3], sum = 0.0;
-    for (int32_t i = 0; i < 3; ++i)
-        sum += area[i] = fe__maxd(fe__ddot(n, fe__dcross(p[(i + 1) % 3], p[(i + 2) % 3])), 0.0);
-    if (sum > 0.0) keep_nearer(g, (double[3]){area[0] / sum, area[1] / sum, area[2] / sum}, v, &best, weight);
+    double candidates[4][3] = {{0.0}}, *area = candidates[3], sum = 0.0;
     for (int32_t i = 0; i < 3; ++i) {
-        double along[2], side[3] = {0.0, 0.0, 0.0};
+        double along[2];
+        sum += area[i] = fe__maxd(fe__ddot(n, fe__dcross(p[(i + 1) % 3], p[(i + 2) % 3])), 0.0);
         weigh_line(p[i], p[(i + 1) % 3], along);
-        side[i] = along[0], side[(i + 1) % 3] = along[1];
-        keep_nearer(g, side, v, &best, weight);
+        candidates[i][i] = along[0], candidates[i][(i + 1) % 3] = along[1];
+    }
+    if (sum > 0.0) set_weights(area, area[0] / sum, area[1] / sum, area[2] / sum);
+    for (int32_t i = sum > 0.0 ? -1 : 0; i < 3; ++i) {
+        const double *candidate = i < 0 ? area : candidates[i];
+        double miss = miss_of(g, candidate, v);
+        if (miss < best) best = miss, set_weights(weight, candidate[0], candidate[1], candidate[2]);
     }
 }
 
-// The simplex before its last vertex
-typedef struct kept {
+// Adds w, and keeps the part of the simplex nearest the origin. 0: the tetrahedron holds the origin
+static int32_t add_vertex(fe__gjk *g, const fe__vertex *w, double *weight)
+{
+    g->vertex[g->count++] = *w;
+    if (g->count < 4) {
+        g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
+        return 1;
+    }
+    if (!weigh_tetrahedron(g->vertex, weight, g->size)) return 0;
+    g->count = drop_weightless(g->vertex, weight, 4);
+    return 1;
+}
+
+// The simplex before its last vertex came.
+typedef struct simplex {
     fe__vertex vertex[3];
     double weight[3];
     int32_t count;
-} kept;
-static void keep(const fe__gjk *g, const double *weight, kept *k)
+} simplex;
+
+static void take_back(const simplex *last, fe__gjk *g, double *weight)
 {
-    k->count = g->count;
-    for (int32_t i = 0; i < g->count; ++i) k->vertex[i] = g->vertex[i], k->weight[i] = weight[i];
-}
-static void take_back(const kept *k, fe__gjk *g, double *weight)
-{
-    g->count = k->count;
-    for (int32_t i = 0; i < k->count; ++i) g->vertex[i] = k->vertex[i], weight[i] = k->weight[i];
+    g->count = last->count;
+    for (int32_t i = 0; i < last->count; ++i) g->vertex[i] = last->vertex[i], weight[i] = last->weight[i];
 }
 
-// of the distance: what the plane between two that are apart has to show
-#define GAP_SHARE 0.5
-
-// From the vertices that the result has, one to three. `share`: of the distance, that a plane shows before what is
-// farther than the limit is left
+// Begins with the one to three vertices in g. Stops when a plane shows that the cores are farther apart than `limit`,
+// and shows this share of their distance.
 static void approach_origin(const fe__cores *cores, double limit, double share, int32_t closely, fe__gjk *g)
 {
     double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
@@ -241,7 +225,7 @@ static void approach_origin(const fe__cores *cores, double limit, double share, 
         g->size = fe__maxd(g->size, sqrt(fe__ddot(g->vertex[i].difference, g->vertex[i].difference)));
     g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
     fe_dvec3 v = weighted(g->vertex, weight, g->count);
-    g->apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
+    g->apart_by = 0.0; // The distance is no less than this: then a sliver that seems to hold the origin does not.
     g->across = (fe_dvec3){0.0, 0.0, 0.0};
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
         double square = fe__ddot(v, v), near = overlap_size * g->size;
@@ -251,37 +235,39 @@ static void approach_origin(const fe__cores *cores, double limit, double share, 
         }
         fe__vertex w = fe__cores_support(cores, fe__dscale(-1.0, v));
         g->size = fe__maxd(g->size, sqrt(fe__ddot(w.difference, w.difference)));
-        // the plane through w across v separates: distance >= v . w / |v|
+        // The plane through w across v separates the cores: distance >= v . w / |v|.
         double along = fe__ddot(v, w.difference);
         double bound = along / sqrt(square);
         if (bound > g->apart_by) g->apart_by = bound, g->across = v;
-        int32_t apart = along > share * square && along * along > limit * limit * square;
-        if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
-        kept last;
-        keep(g, weight, &last);
-        g->vertex[g->count++] = w;
-        if (g->count < 4) {
-            g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
-        } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
-            g->count = drop_weightless(g->vertex, weight, 4);
-        } else if (curved && g->apart_by > near) {
-            take_back(&last, g, weight);
-            break;
-        } else {
-            g->overlap = 1;
+        int32_t is_apart = along > share * square && along * along > limit * limit * square, is_known = 0;
+        if (is_apart || square - along <= CONVERGED * square) break;
+        simplex last;
+        last.count = g->count;
+        for (int32_t i = 0; i < g->count; ++i) {
+            fe_dvec3 d = fe__dsub(g->vertex[i].difference, w.difference);
+            is_known |= fe__ddot(d, d) == 0.0;
+            last.vertex[i] = g->vertex[i], last.weight[i] = weight[i];
+        }
+        if (is_known) break;
+        if (!add_vertex(g, &w, weight)) {
+            g->overlap = !(curved && g->apart_by > near);
+            if (!g->overlap) take_back(&last, g, weight);
             break;
         }
         fe_dvec3 nearer =
             curved || closely ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
-        if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
+        if (fe__ddot(nearer, nearer) >= square) { // Rounding prevents a nearer point.
             take_back(&last, g, weight);
             break;
         }
         v = nearer;
     }
     weigh_sliver(g, v, weight);
-    set_points(g, weight, v);
-    if (g->overlap) g->distance = 0.0;
+    g->on_a = (fe_dvec3){0.0, 0.0, 0.0};
+    for (int32_t i = 0; i < g->count; ++i) g->on_a = fe__dadd(g->on_a, fe__dscale(weight[i], g->vertex[i].on_a));
+    g->on_b = fe__dsub(g->on_a, v);
+    g->way = fe__dscale(-1.0, v);
+    g->distance = g->overlap ? 0.0 : sqrt(fe__ddot(v, v));
 }
 
 static void begin(const fe__cores *cores, fe__gjk *g)
@@ -315,7 +301,7 @@ void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g)
     approach_origin(cores, (double)INFINITY, 0.0, 1, g);
 }
 
-// Its height is a thousandth of its longest side, at least
+// The height of a triangle that is no sliver is more than a thousandth of its longest side.
 static int32_t is_sliver(const fe__vertex *v)
 {
     const double least = 1e-3;
@@ -325,7 +311,7 @@ static int32_t is_sliver(const fe__vertex *v)
     return !(fe__ddot(n, n) > least * least * longest * longest);
 }
 
-// Lengths were met from there, and are what distances are precise against here as well.
+// g->size stays: the lengths that were met before bound the precision here as well.
 void fe__gjk_distance_closely_after(const fe__cores *cores, fe_dvec3 shift, fe__gjk *g)
 {
     if (g->overlap || g->count > 3 || (g->count == 3 && is_sliver(g->vertex))) {

@@ -25,20 +25,17 @@ fe_dvec3 fe__ground_normal(const fe__ground *s, int32_t index)
     return normal_of(v);
 }
 
-static int32_t is_open(const fe__heightfield *f, int32_t row, int32_t column)
-{
-    if (row < 0 || row >= f->rows - 1 || column < 0 || column >= f->columns - 1) return 1;
-    return fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
-}
-
-// Sides as fe__heightfield_corners gives them; the diagonal never is a rim.
+// A heightfield's side is a rim if the neighbouring cell is outside the field, or a hole; the diagonal never is one.
+// Sides are numbered as fe__heightfield_corners gives the corners.
 int32_t fe__ground_is_rim(const fe__ground *s, int32_t index, int32_t side)
 {
     static const int32_t step_row[2][3] = {{0, 1, 0}, {0, 0, -1}}, step_column[2][3] = {{-1, 0, 0}, {0, 1, 0}};
     if (s->mesh) return fe__mesh_edge_of(s->mesh, index, side) == FE__MESH_EDGE_OPEN;
     int32_t cell = index >> 1, half = index & 1, columns = s->field->columns - 1, diagonal = half ? 0 : 2;
-    return side != diagonal &&
-           is_open(s->field, cell / columns + step_row[half][side], cell % columns + step_column[half][side]);
+    if (side == diagonal) return 0;
+    int32_t row = cell / columns + step_row[half][side], column = cell % columns + step_column[half][side];
+    if (row < 0 || row >= s->field->rows - 1 || column < 0 || column >= columns) return 1;
+    return fe__heightfield_is_hole(s->field, row * columns + column);
 }
 
 fe__bounds fe__ground_bounds(const fe__ground *s)
@@ -56,7 +53,7 @@ fe_dvec3 fe__ground_cell(const fe__ground *s)
     return (fe_dvec3){width, width, width};
 }
 
-// Shares of the areas across which the point lies, of the triangle's own
+// A corner's weight is the share of the triangle's area that the point cuts off across from it.
 void fe__ground_weights(const fe__ground *s, int32_t index, fe_dvec3 point, float *out_weights)
 {
     if (!s->mesh) {
@@ -69,13 +66,13 @@ void fe__ground_weights(const fe__ground *s, int32_t index, fe_dvec3 point, floa
     double per_square = 1.0 / fe__ddot(n, n);
     double second = fe__clampd(fe__ddot(fe__dcross(p, b), n) * per_square, 0.0, 1.0);
     double third = fe__clampd(fe__ddot(fe__dcross(a, p), n) * per_square, 0.0, 1.0 - second);
-    int32_t is_mirrored = s->mesh->is_mirrored; // the weights are those of the asset's corners
+    int32_t is_mirrored = s->mesh->is_mirrored; // The weights belong to the asset's corners.
     out_weights[is_mirrored] = (float)second;
     out_weights[!is_mirrored] = (float)third;
 }
 
-// ---- what rises ----------------------------------------------------------------------------------------------------
-// a slope: 0.06 degrees
+// ---- questions at internal edges -----------------------------------------------------------------------------------
+// A triangle that slopes less than this, 0.06 degrees, is flat.
 #define FLAT 1e-3
 
 // Is p over or under the triangle, or less than `near` beside it?
@@ -88,22 +85,17 @@ static int32_t is_over(const fe_dvec3 v[3], fe_dvec3 n, fe_dvec3 p, double near)
     return 1;
 }
 
-static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
+// Does the face rise over the triangle from its rim?
+static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], fe_dvec3 n, const fe__solid_rim *rim)
 {
-    fe_dvec3 n = normal_of(v);
-    return fe__absd(fe__ddot(n, fe__dsub(p, v[0]))) <= near && is_over(v, n, p, near);
-}
-
-static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], const fe__solid_rim *rim)
-{
-    const double least = 1e-4; // m, above the roundings of what is a kilometre wide
-    fe_dvec3 n = normal_of(v);
+    const double least = 1e-4; // above the rounding of a face that is a kilometre wide
     double up = fe__ddot(n, rim->inward);
     if (fe__ground_is_two_sided(s) && fe__ddot(n, fe__dsub(rim->from, v[0])) < 0.0) up = -up;
     return up > least;
 }
 
-// How far does the triangle rise along m from p, which is near it, m? In its plane, and 0 when it is flat
+// How far the triangle rises along m from p, which is near it, m: to its farthest point up its plane from p. 0: it is
+// flat
 static double length_of_rise(const fe_dvec3 v[3], fe_dvec3 p, fe_dvec3 m)
 {
     fe_dvec3 n = normal_of(v), way = fe__dsub(m, fe__dscale(fe__ddot(n, m), n));
@@ -117,7 +109,7 @@ static double length_of_rise(const fe_dvec3 v[3], fe_dvec3 p, fe_dvec3 m)
     return most * slope;
 }
 
-// `rim`: NULL for any triangle
+// `rim` may be NULL: then all triangles count.
 static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, const fe__solid_rim *rim)
 {
     fe__bounds box = {{p.x - near, p.y - near, p.z - near}, {p.x + near, p.y + near, p.z + near}};
@@ -133,9 +125,12 @@ static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, c
             may_rise |= rise > FLAT * near;
             if (rise > near) is_higher |= rise > FLAT * sqrt(fe__ddot(way, way)) + near;
         }
-        // across a sliver, whose corners are far off, each to one side
+        // The corners of a sliver may all be far off to the sides, so that none shows its rise.
         if (!is_higher && may_rise) is_higher = length_of_rise(v, p, m) > near;
-        if (is_higher && is_near(v, p, near) && !(rim && is_under(s, v, rim))) return 1;
+        if (!is_higher) continue;
+        fe_dvec3 n = normal_of(v);
+        int32_t is_near = fe__absd(fe__ddot(n, fe__dsub(p, v[0]))) <= near && is_over(v, n, p, near);
+        if (is_near && !(rim && is_under(s, v, n, rim))) return 1;
     }
     return 0;
 }
@@ -150,18 +145,14 @@ int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dv
     return rises(s, rim->p, m, near, rim);
 }
 
-static fe__bounds bounds_of(const fe_dvec3 *p, int32_t count, double wider)
-{
-    fe__bounds box = {p[0], p[0]};
-    for (int32_t k = 1; k < count; ++k) fe__bounds_add(&box, &(fe__bounds){p[k], p[k]});
-    return (fe__bounds){{box.low.x - wider, box.low.y - wider, box.low.z - wider},
-                        {box.high.x + wider, box.high.y + wider, box.high.z + wider}};
-}
-
-// As in ground.h, at any of the points
+// Is a triangle level with any of the points? (ground.h)
 static int32_t is_level(const fe__ground *s, const fe_dvec3 *p, int32_t count, fe_dvec3 f, double level, double beside)
 {
-    fe__bounds box = bounds_of(p, count, fe__maxd(level, beside));
+    double margin = fe__maxd(level, beside);
+    fe__bounds box = {p[0], p[0]};
+    for (int32_t k = 1; k < count; ++k) fe__bounds_add(&box, &(fe__bounds){p[k], p[k]});
+    box.low = (fe_dvec3){box.low.x - margin, box.low.y - margin, box.low.z - margin};
+    box.high = (fe_dvec3){box.high.x + margin, box.high.y + margin, box.high.z + margin};
     fe__ground_walk walk;
     fe__ground_begin(&walk, s, &box, p[0]);
     for (int32_t i; (i = fe__ground_next_index(&walk)) >= 0;) {

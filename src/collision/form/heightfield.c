@@ -1,8 +1,4 @@
-// heightfield.c - triangles of a heightfield, a walk over those near a box, and a ray; see heightfield.h.
-//
-// The ray walks from cell to cell (Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987). Its height over the
-// surface, g, is linear between borders and diagonals; each g there belongs to both its neighbours, so that no ray
-// slips through an edge.
+// heightfield.c - triangles of a heightfield, a walk over the triangles near a box, and a ray; see heightfield.h.
 #include "collision/form/heightfield.h"
 
 #include "collision/form/form_kinds.h"
@@ -30,11 +26,11 @@ fe__form fe__heightfield_form(const fe__heightfield *f, int32_t index)
 {
     const double up = 1.0 + 1e-7;
     float x = (float)(up * (double)(f->columns - 1) * f->cell_x), z = (float)(up * (double)(f->rows - 1) * f->cell_z);
-    return (
-        fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
+    fe_vec3 low = {0.0f, f->low, 0.0f}, high = {x, f->high, z};
+    return (fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = low, .high = high};
 }
 
-// the rotated box of its own bounds
+// The bounds of the form's own bounding box, rotated.
 fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose)
 {
     fe_dvec3 low = fe__widen(form->low), high = fe__widen(form->high), half = fe__dscale(0.5, fe__dsub(high, low));
@@ -43,22 +39,24 @@ fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose)
     return (fe__bounds){fe__dsub(centre, half), fe__dadd(centre, half)};
 }
 
-static fe_vec3 vertex_of(const fe__heightfield *f, int32_t row, int32_t column, fe_dvec3 origin)
+static fe_dvec3 sample_of(const fe__heightfield *f, int32_t row, int32_t column)
 {
-    fe_dvec3 p = {(double)column * f->cell_x, (double)height_of(f, row, column), (double)row * f->cell_z};
-    return fe__narrow(fe__dsub(p, origin));
+    return (fe_dvec3){(double)column * f->cell_x, (double)height_of(f, row, column), (double)row * f->cell_z};
 }
 
 static fe__form triangle_of(const fe__heightfield *f, int32_t row, int32_t column, int32_t half, fe_dvec3 origin)
 {
+    fe_dvec3 p00 = sample_of(f, row, column), p11 = sample_of(f, row + 1, column + 1),
+             side = half ? sample_of(f, row, column + 1) : sample_of(f, row + 1, column);
     fe__form triangle = {.type = FE__FORM_TRIANGLE};
-    triangle.vertex[0] = vertex_of(f, row, column, origin);
-    triangle.vertex[1] = half ? vertex_of(f, row + 1, column + 1, origin) : vertex_of(f, row + 1, column, origin);
-    triangle.vertex[2] = half ? vertex_of(f, row, column + 1, origin) : vertex_of(f, row + 1, column + 1, origin);
+    triangle.vertex[0] = fe__narrow(fe__dsub(p00, origin));
+    triangle.vertex[1] = fe__narrow(fe__dsub(half ? p11 : side, origin));
+    triangle.vertex[2] = fe__narrow(fe__dsub(half ? side : p11, origin));
     return triangle;
 }
 
-// In a cell, u along x and v along z, both 0..1: the z side is (0,0) (0,1) (1,1), the x side (0,0) (1,1) (1,0)
+// In a cell u runs along x and v along z, both 0..1. Half 0 has the corners (0,0) (0,1) (1,1), half 1 (0,0) (1,1)
+// (1,0).
 void fe__heightfield_weights(const fe__heightfield *f, int32_t triangle, fe_dvec3 point, float *out_weights)
 {
     int32_t cell = triangle / 2, row = cell / (f->columns - 1), column = cell % (f->columns - 1);
@@ -73,11 +71,6 @@ fe__form fe__heightfield_triangle(const fe__heightfield *f, int32_t triangle, fe
 {
     int32_t cell = triangle >> 1;
     return triangle_of(f, cell / (f->columns - 1), cell % (f->columns - 1), triangle & 1, origin);
-}
-
-static fe_dvec3 sample_of(const fe__heightfield *f, int32_t row, int32_t column)
-{
-    return (fe_dvec3){(double)column * f->cell_x, (double)height_of(f, row, column), (double)row * f->cell_z};
 }
 
 void fe__heightfield_corners(const fe__heightfield *f, int32_t triangle, fe_dvec3 corner[3])
@@ -100,7 +93,7 @@ fe_dvec3 fe__heightfield_normal(const fe__heightfield *f, int32_t triangle)
 }
 
 // ---- the walk ------------------------------------------------------------------------------------------------------
-// the cell a coordinate (in cells) lies in, of `count`
+// The number of the cell, of `count`, in which a coordinate (in cells) lies; the nearest one if it is outside.
 static int32_t cell_of(double x, int32_t count)
 {
     double last = (double)(count - 1);
@@ -114,7 +107,7 @@ fe__triangle_walk fe__heightfield_walk(const fe__heightfield *f, const fe__bound
            z1 = box->high.z / f->cell_z;
     fe__triangle_walk walk = {.field = f, .origin = origin, .low = box->low.y, .high = box->high.y};
     if (!(x1 >= 0.0 && x0 <= (double)columns && z1 >= 0.0 && z0 <= (double)rows))
-        return walk; // nothing: row == end_row
+        return walk; // The walk is empty: row == end_row.
     walk.first_column = walk.column = cell_of(x0, columns);
     walk.end_column = cell_of(x1, columns) + 1;
     walk.row = cell_of(z0, rows);
@@ -145,18 +138,20 @@ int32_t fe__next_triangle(fe__triangle_walk *walk, fe__form *triangle)
 }
 
 // ---- the ray -------------------------------------------------------------------------------------------------------
-// x and z in cells; g is known at t unless the ray flew over the last cell, which it did above 0
+// The ray walks from cell to cell (Amanatides and Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, 1987). Its
+// height over the surface, g, is linear between borders and diagonals. Each g there belongs to both neighbours, so that
+// no ray slips through an edge.
 typedef struct traverse {
     const fe__heightfield *field;
-    fe_dvec3 origin, way;
+    fe_dvec3 origin, way; // x and z in cells
     double t, end;
     int32_t row, column;
-    int32_t known;
-    double g;
+    int32_t g_is_known; // 0: the ray passed over all corners of the last cell, so that g > 0
+    double g;           // height at t
 } traverse;
 
-// Height of the ray at t over the plane of a triangle of the cell. Both halves agree on the diagonal, and neighbours on
-// their border.
+// The height g of the ray at t over the plane of a triangle of the cell. Both halves agree on the diagonal, and
+// neighbours on their border.
 static double height_over(const traverse *r, double t, int32_t half)
 {
     const float *h = r->field->heights + (int64_t)r->row * r->field->columns + r->column, *next = h + r->field->columns;
@@ -166,7 +161,7 @@ static double height_over(const traverse *r, double t, int32_t half)
     return r->origin.y + t * r->way.y - ground;
 }
 
-// From r->t, with g, to `to`, where it is `g`, over one triangle
+// Goes over one triangle, from r->t with the height r->g to `to` with the height `g`. 1: hit
 static int32_t cross_triangle(traverse *r, double to, double g, int32_t half, fe__ray_hit *hit)
 {
     double from = r->t, before = r->g;
@@ -177,18 +172,18 @@ static int32_t cross_triangle(traverse *r, double to, double g, int32_t half, fe
     int32_t number = 2 * cell + half;
     *hit = (fe__ray_hit){.t = from + (to - from) * (before / (before - g)), .triangle = number, .index = number};
     hit->normal = fe__heightfield_normal(r->field, hit->triangle);
-    // at a corner, or along the surface, the signs of g are those of roundings
+    // At a corner, or along the surface, rounding makes the signs of g.
     fe_dvec3 n = hit->normal, way = {r->way.x * r->field->cell_x, r->way.y, r->way.z * r->field->cell_z};
     return fe__ddot(n, way) < 0.0;
 }
 
-// From r->t to `to` within a cell: the side of the diagonal is the sign of u - v
+// Goes from r->t to `to` within a cell. The sign of u - v tells the side of the diagonal. 1: hit
 static int32_t cross_cell(traverse *r, double to, fe__ray_hit *hit)
 {
     double offset = (r->origin.x - (double)r->column) - (r->origin.z - (double)r->row), rate = r->way.x - r->way.z;
     double side = offset + r->t * rate, side_after = offset + to * rate;
     int32_t half = side > 0.0 || (side == 0.0 && side_after > 0.0);
-    if (!r->known) r->g = fe__maxd(height_over(r, r->t, half), 0.0), r->known = 1;
+    if (!r->g_is_known) r->g = fe__maxd(height_over(r, r->t, half), 0.0), r->g_is_known = 1;
     if ((side > 0.0 && side_after < 0.0) || (side < 0.0 && side_after > 0.0)) {
         double middle = fe__mind(r->t + (to - r->t) * (side / (side - side_after)), to);
         if (cross_triangle(r, middle, height_over(r, middle, half), half, hit)) return 1;
@@ -197,23 +192,17 @@ static int32_t cross_cell(traverse *r, double to, fe__ray_hit *hit)
     return cross_triangle(r, to, height_over(r, to, half), half, hit);
 }
 
-// Above all four corners on its way to `to`?
-static int32_t flies_over(const traverse *r, double to)
-{
-    const float *h = r->field->heights + (int64_t)r->row * r->field->columns + r->column, *next = h + r->field->columns;
-    float top = fe__maxf(fe__maxf(h[0], h[1]), fe__maxf(next[0], next[1]));
-    return fe__mind(r->origin.y + r->t * r->way.y, r->origin.y + to * r->way.y) > (double)top;
-}
-
-// What moves less than this moves by nothing, m
+// A ray that moves less than this along an axis does not move along it, m.
 #define STILL 1e-200
 
-// Where the ray is over the field, no farther above or below the heights than a cell. `per` is 1 / way, 0 where it
-// stands still.
+static double inverse(double way) { return fe__absd(way) < STILL ? 0.0 : 1.0 / way; }
+
+// The part of the ray over the field, no farther above or below the heights than a cell. `per` is 1 / way, or 0 along
+// an axis on which the ray does not move.
 static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 per, double limit, double *from, double *to)
 {
-    double spare =
-        f->cell_x + f->cell_z + 1e-6 * (fe__absd((double)f->low) + fe__absd((double)f->high)); // far above rounding
+    // The last term is far above rounding.
+    double spare = f->cell_x + f->cell_z + 1e-6 * (fe__absd((double)f->low) + fe__absd((double)f->high));
     const double low[3] = {0.0, (double)f->low - spare, 0.0}, origin[3] = {o.x, o.y, o.z},
                  slope[3] = {per.x, per.y, per.z};
     const double high[3] = {(double)(f->columns - 1) * f->cell_x, (double)f->high + spare,
@@ -232,20 +221,19 @@ static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 per, double l
     return enter <= leave;
 }
 
-static double inverse(double way) { return fe__absd(way) < STILL ? 0.0 : 1.0 / way; }
-
 int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 translation, double limit,
                             fe__ray_hit *hit)
 {
     traverse r = {.field = f};
     fe_dvec3 per = {inverse(translation.x), inverse(translation.y), inverse(translation.z)};
-    if (!clip(f, origin, per, 1.0, &r.t, &r.end)) return 0; // not by the limit: t would know of it in its last bit
+    // The clip is not by the limit: the last bit of t would depend on it.
+    if (!clip(f, origin, per, 1.0, &r.t, &r.end)) return 0;
     r.origin = (fe_dvec3){origin.x / f->cell_x, origin.y, origin.z / f->cell_z};
     r.way = (fe_dvec3){translation.x / f->cell_x, translation.y, translation.z / f->cell_z};
     r.column = cell_of(r.origin.x + r.t * r.way.x, f->columns - 1);
     r.row = cell_of(r.origin.z + r.t * r.way.z, f->rows - 1);
     double side = (r.origin.x + r.t * r.way.x - (double)r.column) - (r.origin.z + r.t * r.way.z - (double)r.row);
-    r.g = height_over(&r, r.t, side > 0.0), r.known = 1;
+    r.g = height_over(&r, r.t, side > 0.0), r.g_is_known = 1;
 
     int32_t step_x = r.way.x < 0.0 ? -1 : 1, step_z = r.way.z < 0.0 ? -1 : 1;
     const double never = (double)INFINITY;
@@ -253,9 +241,11 @@ int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 
     double t_x = per_x == 0.0 ? never : ((double)(r.column + (step_x > 0)) - r.origin.x) * per_x;
     double t_z = per_z == 0.0 ? never : ((double)(r.row + (step_z > 0)) - r.origin.z) * per_z;
     for (;;) {
+        const float *h = f->heights + (int64_t)r.row * f->columns + r.column, *next = h + f->columns;
+        float top = fe__maxf(fe__maxf(h[0], h[1]), fe__maxf(next[0], next[1]));
         double to = fe__maxd(fe__mind(fe__mind(t_x, t_z), r.end), r.t);
-        if (flies_over(&r, to))
-            r.t = to, r.known = 0;
+        if (fe__mind(r.origin.y + r.t * r.way.y, r.origin.y + to * r.way.y) > (double)top)
+            r.t = to, r.g_is_known = 0; // The ray passes over all four corners.
         else if (cross_cell(&r, to, hit))
             return hit->t <= limit;
         if (to >= r.end || to > limit) return 0;

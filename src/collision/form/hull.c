@@ -1,4 +1,4 @@
-// hull.c - where a hull ends, in a direction, in the world, and along a ray. See hull.h.
+// hull.c - support, bounds, rays and faces of a hull, and the traits of a form with a hull (form_table.c). See hull.h.
 #include "collision/form/hull.h"
 
 #include "collision/form/form_kinds.h"
@@ -6,19 +6,17 @@
 
 #include <float.h>
 
-// ---- hull -----------------------------------------------------------------------------------------------------------
-
-// ---- the farthest --------------------------------------------------------------------------------------------------
-// Floats tell which lanes may be the farthest, double which of those is. A float product n . x of three terms, its
-// factors rounded to floats, is off by less than 6 u (|n1 x1| + |n2 x2| + |n3 x3|), u = 2^-24, or by what underflows.
+// ---- support -------------------------------------------------------------------------------------------------------
+// Floats find the lanes that may be the farthest, double decides between them. A float product n . x of three terms,
+// its factors rounded to floats, is off by less than 6 u (|n1 x1| + |n2 x2| + |n3 x3|), u = 2^-24, plus underflow.
 enum { MOST_LANES = (FE__HULL_FACES + FE__HULL_LANES - 1) / FE__HULL_LANES * FE__HULL_LANES };
 static const float rounding = 6.0f * 0x1p-24f, underflow = 1e-30f;
 
-// n . x of each lane, in floats, the greatest of them and the least
-typedef struct reach {
+// Computes n . x of each lane in floats, and the greatest and the least of them.
+typedef struct extremes {
     float most, least;
-} reach;
-static inline reach look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
+} extremes;
+static inline extremes look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
 {
     const fe__quad *px = (const fe__quad *)lanes->x, *py = (const fe__quad *)lanes->y, *pz = (const fe__quad *)lanes->z;
     const fe__quad x = fe__quad_set(n.x), y = fe__quad_set(n.y), z = fe__quad_set(n.z);
@@ -30,30 +28,24 @@ static inline reach look_along(const fe__hull_lanes *lanes, int32_t count, fe_ve
     }
     most = fe__quad_max(most, __builtin_shufflevector(most, most, 2, 3, 0, 1));
     least = fe__quad_min(least, __builtin_shufflevector(least, least, 2, 3, 0, 1));
-    return (reach){fe__maxf(most[0], most[1]), fe__minf(least[0], least[1])};
+    return (extremes){fe__maxf(most[0], most[1]), fe__minf(least[0], least[1])};
 }
 
-// Bit i: lane first + i, times `sign`, is not below `least`. What is no number is not
-enum { WORD = 64 };
-static inline uint64_t lanes_from(const float *along, int32_t first, int32_t count, float sign, float least)
-{
-    const fe__quad low = fe__quad_set(least), factor = fe__quad_set(sign);
-    int32_t end = fe__mini(count - first, WORD);
-    uint64_t left = 0;
-    for (int32_t i = 0; i < end; i += 4)
-        left |= (uint64_t)(0xfu & ~fe__quad_signs(factor * *(const fe__quad *)(along + first + i) < low)) << i;
-    return left;
-}
-
-// Of the lanes not below `least` the farthest along the direction. Mostly one lane is left, at a place that nothing
-// predicts: no branch depends on where.
+// Chooses the lane farthest along the direction among those with  sign along >= least. Mostly one lane is left, at a
+// place that nothing predicts: no branch depends on it.
 static inline int32_t choose_lane(const fe__hull_lanes *lanes, int32_t count, const float *along, float sign,
                                   float least, fe_dvec3 direction)
 {
+    enum { WORD = 64 };
+    const fe__quad low = fe__quad_set(least), factor = fe__quad_set(sign);
     int32_t best = 0;
     double farthest = -(double)INFINITY;
     for (int32_t first = 0; first < count; first += WORD) {
-        uint64_t left = lanes_from(along, first, count, sign, least);
+        // Bit i is lane first + i. A NaN is not below `least` and stays.
+        int32_t end = fe__mini(count - first, WORD);
+        uint64_t left = 0;
+        for (int32_t i = 0; i < end; i += 4)
+            left |= (uint64_t)(0xfu & ~fe__quad_signs(factor * *(const fe__quad *)(along + first + i) < low)) << i;
         if (count <= WORD && !(left & (left - 1))) return __builtin_ctzll(left);
         for (; left; left &= left - 1) {
             int32_t lane = first + __builtin_ctzll(left);
@@ -64,7 +56,7 @@ static inline int32_t choose_lane(const fe__hull_lanes *lanes, int32_t count, co
     return best;
 }
 
-// By how much n . x in floats may be off, twice. No coordinate of a lane is larger than that of `most`
+// Twice the error of n . x in floats. No coordinate of a lane is larger than that of `most`.
 static inline float doubt_of(fe_vec3 n, fe_vec3 most)
 {
     float sum = fe__absf(n.x) * most.x + fe__absf(n.y) * most.y + fe__absf(n.z) * most.z;
@@ -97,9 +89,9 @@ fe__hull_ends fe__hull_ends_along(const fe__hull *hull, fe_dvec3 direction)
     int32_t count = hull->vertex_count;
     fe_vec3 n = fe__narrow(direction);
     float doubt = doubt_of(n, most_of_corners(hull->low, hull->high));
-    reach r = look_along(v, count, n, along);
-    return (fe__hull_ends){choose_lane(v, count, along, 1.0f, r.most - doubt, direction),
-                           choose_lane(v, count, along, -1.0f, -r.least - doubt, fe__dscale(-1.0, direction))};
+    extremes ends = look_along(v, count, n, along);
+    return (fe__hull_ends){choose_lane(v, count, along, 1.0f, ends.most - doubt, direction),
+                           choose_lane(v, count, along, -1.0f, -ends.least - doubt, fe__dscale(-1.0, direction))};
 }
 
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction)
@@ -118,21 +110,12 @@ float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
     return (float)sqrt(most);
 }
 
-// ---- bounds: pairs of lanes, in double -----------------------------------------------------------------------------
+// ---- bounds --------------------------------------------------------------------------------------------------------
+// Two points side by side, in double.
 typedef struct pairs {
     fe__doubles x, y, z;
 } pairs;
 
-static inline pairs low_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
-{
-    return (pairs){fe__doubles_low(*x), fe__doubles_low(*y), fe__doubles_low(*z)};
-}
-static inline pairs high_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
-{
-    return (pairs){fe__doubles_high(*x), fe__doubles_high(*y), fe__doubles_high(*z)};
-}
-
-// As fe__drotate: a + k w t + k u x t, t = u x a
 static inline pairs cross(fe_dvec3 u, pairs a)
 {
     return (pairs){u.y * a.z - u.z * a.y, u.z * a.x - u.x * a.z, u.x * a.y - u.y * a.x};
@@ -147,6 +130,7 @@ typedef struct span {
     pairs low, high;
 } span;
 
+// Adds the rotated points to the span, as fe__drotate turns them: a + k w t + k u x t, t = u x a.
 static inline span grown(span s, fe_dvec3 u, double kw, double k, pairs a)
 {
     pairs t = cross(u, a), ut = cross(u, t);
@@ -164,8 +148,8 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
     double w = (double)pose->rotation.w, k = 2.0 / (fe__ddot(u, u) + w * w), kw = k * w;
     span s = {{{far, far}, {far, far}, {far, far}}, {{-far, -far}, {-far, -far}, {-far, -far}}};
     for (int32_t i = 0; i < hull->vertex_count; i += 4, ++x, ++y, ++z) {
-        s = grown(s, u, kw, k, low_of(x, y, z));
-        s = grown(s, u, kw, k, high_of(x, y, z));
+        s = grown(s, u, kw, k, (pairs){fe__doubles_low(*x), fe__doubles_low(*y), fe__doubles_low(*z)});
+        s = grown(s, u, kw, k, (pairs){fe__doubles_high(*x), fe__doubles_high(*y), fe__doubles_high(*z)});
     }
     return (fe__bounds){
         fe__dadd(pose->position, (fe_dvec3){least_of(s.low.x), least_of(s.low.y), least_of(s.low.z)}),
@@ -175,7 +159,7 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
 
 static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
-// A float product of a row of the rotation and a vertex is off by some roundings, 2^-24 of their sum each
+// A float product of a row of the rotation and a vertex is off by some roundings, 2^-24 of their sum each.
 void fe__hull_span(const fe__hull *hull, const fe__mat3 *rotation, fe_vec3 *out_low, fe_vec3 *out_high)
 {
     const float rounding = 0x1p-19f;
@@ -187,8 +171,11 @@ void fe__hull_span(const fe__hull *hull, const fe__mat3 *rotation, fe_vec3 *out_
     for (int32_t i = 0; i < hull->vertex_count; i += 4, ++px, ++py, ++pz) {
         const fe__quad along[3] = {r.x.x * *px + r.y.x * *py + r.z.x * *pz, r.x.y * *px + r.y.y * *py + r.z.y * *pz,
                                    r.x.z * *px + r.y.z * *py + r.z.z * *pz};
-        _Pragma("GCC unroll 3") for (int32_t k = 0; k < 3; ++k) low[k] = fe__quad_min(along[k], low[k]),
-                                                                high[k] = fe__quad_max(along[k], high[k]);
+        _Pragma("GCC unroll 3") for (int32_t k = 0; k < 3; ++k)
+        {
+            low[k] = fe__quad_min(along[k], low[k]);
+            high[k] = fe__quad_max(along[k], high[k]);
+        }
     }
     fe_vec3 most = most_of_corners(hull->low, hull->high);
     float doubt = rounding * (most.x + most.y + most.z);
@@ -204,12 +191,12 @@ fe__bounds fe__hull_rough_bounds(const fe__hull *hull, const fe__pose *pose)
     return (fe__bounds){fe__dadd(pose->position, fe__widen(low)), fe__dadd(pose->position, fe__widen(high))};
 }
 
-// ---- what passes by ------------------------------------------------------------------------------------------------
-// Where the passer's lowest point is over a plane, at t, is  height + t rate.  It is in the hull from the last plane
-// that it comes in through to the first that it goes out through, if at all.
+// ---- boxes that pass by --------------------------------------------------------------------------------------------
+// The passer's lowest point is  height + t rate  over a plane at t. The passer is in the hull from the last plane that
+// it comes in through to the first that it goes out through, if at all.
 //
-// Floats: a height is off by some roundings of the lengths involved, 2^-24 of their sum each, so a share of that is
-// taken from it. That covers what t is rounded by: it moves the passer by no more.
+// A height in floats is off by some roundings of the lengths involved, 2^-24 of their sum each, so a share of that sum
+// is taken from it. The share covers the rounding of t as well, which moves the passer by no more.
 typedef struct floats3 {
     fe__quad x, y, z;
 } floats3;
@@ -220,9 +207,9 @@ static floats3 spread(fe_dvec3 a)
 static inline fe__quad dot(const floats3 *a, const floats3 *b) { return a->x * b->x + a->y * b->y + a->z * b->z; }
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
 
-static const double share = 0x1p-19;    // of the lengths, which is taken
-static const double too_far = 1e25;     // m: floats hold products of less and of unit vectors
-static const float least_rate = 1e-30f; // what is no faster is still
+static const double share = 0x1p-19;    // share of the lengths
+static const double too_far = 1e25;     // m; floats hold the products of shorter lengths and unit vectors
+static const float least_rate = 1e-30f; // A passer that is no faster stands still.
 
 int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, double limit, double *out_from)
 {
@@ -233,7 +220,7 @@ int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, doubl
     const floats3 origin = spread(p->origin), way = spread(p->translation), a = spread(p->half[0]),
                   b = spread(p->half[1]), c = spread(p->half[2]);
     const fe__quad clear = fe__quad_set((float)radius), none = fe__quad_set(0.0f), slow = fe__quad_set(least_rate);
-    fe__quad enter = none, stay = fe__quad_set((float)-limit); // `stay` is the last t, negative
+    fe__quad enter = none, stay = fe__quad_set((float)-limit); // `stay` is the last t, negated.
     for (int32_t i = 0; i < hull->face_count; i += 4) {
         const floats3 n = {*(const fe__quad *)(hull->normals.x + i), *(const fe__quad *)(hull->normals.y + i),
                            *(const fe__quad *)(hull->normals.z + i)};
@@ -263,12 +250,13 @@ int32_t fe__hull_is_beside(const fe__hull *hull, const fe_vec3 corner[3], float 
 }
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
-// Height over a plane at t: height + t * rate. The ray is inside from the last plane that it comes in through to the
-// first that it goes out through (Cyrus and Beck 1978).
+// The ray's height over a plane at t is  height + t rate.  The ray is inside from the last plane that it comes in
+// through to the first that it goes out through (Cyrus and Beck, 1978).
 typedef struct crossing {
-    double enter, leave;   // of t
-    double highest;        // over any plane, at the start
-    int32_t face, nearest; // that it enters through, -1: none; that the start is highest over
+    double enter, leave; // t
+    double highest;      // greatest height of the start over a plane
+    int32_t face;        // the face that the ray enters through, -1: none
+    int32_t nearest;     // the face that the start is highest over
 } crossing;
 
 static crossing cross_planes(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation)
@@ -293,12 +281,14 @@ static crossing cross_planes(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 tra
     return c;
 }
 
-// The same in floats, between bounds: as above, a height is known to a share of the lengths. Most rays miss, or it is
-// clear that they leave no sooner than they enter: then few faces are left through which they may enter.
+// The same in floats, between bounds: as above, a height is known to a share of the lengths. Most rays miss, or clearly
+// leave no sooner than they enter: then few faces are left through which they may enter.
 typedef struct rough_crossing {
-    float enter, latest, leave; // t: enters no sooner than the first, no later than the second; leaves no sooner
-    int32_t misses;             // surely, up to the limit
-    _Alignas(16) float entry[MOST_LANES]; // of a face: no sooner is it entered through; below 0: never
+    float enter, latest; // The ray enters at some t from `enter` to `latest`.
+    float leave;         // The ray leaves at this t or later.
+    int32_t misses;      // It surely misses, up to the limit.
+    // The ray enters through a face at this t at the latest; below 0: never
+    _Alignas(16) float entry[MOST_LANES];
 } rough_crossing;
 
 static void cross_roughly(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, rough_crossing *c)
@@ -319,7 +309,7 @@ static void cross_roughly(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 transl
         fe__quad low = (height - spare) / speed, high = (height + spare) / speed;
         enter = fe__quad_max(fe__quad_choose(comes, low, none), enter);
         latest = fe__quad_max(fe__quad_choose(comes, high, none), latest);
-        stay = fe__quad_max(fe__quad_choose(comes, stay, low), stay); // negative, as `leave`
+        stay = fe__quad_max(fe__quad_choose(comes, stay, low), stay); // negated, as `leave`
         leave = fe__quad_max(fe__quad_choose(comes, leave, high), leave);
         *(fe__quad *)(c->entry + i) = fe__quad_choose(comes, high, never);
     }
@@ -327,7 +317,7 @@ static void cross_roughly(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 transl
     c->misses = c->enter > -largest(stay);
 }
 
-// Of the faces left the one that the ray enters through last, as cross_planes() finds it; -1: it is not clear
+// The face that the ray enters through last, as cross_planes() finds it, of those that are left; -1: it is not clear
 static int32_t entered_face(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, const rough_crossing *rough,
                             double *out_enter)
 {
@@ -348,14 +338,6 @@ static int32_t entered_face(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 tran
     return face;
 }
 
-static fe_dvec3 against(fe_dvec3 translation, fe_dvec3 way_out)
-{
-    double most = fe__maxd(fe__absd(translation.x), fe__maxd(fe__absd(translation.y), fe__absd(translation.z)));
-    if (most == 0.0) return way_out;
-    fe_dvec3 d = {translation.x / most, translation.y / most, translation.z / most};
-    return fe__dscale(-1.0 / sqrt(fe__ddot(d, d)), d);
-}
-
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
     rough_crossing rough;
@@ -370,7 +352,14 @@ int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation
     }
     crossing c = cross_planes(hull, origin, translation);
     if (c.highest <= 0.0) {
-        fe_dvec3 normal = against(translation, fe__hull_unit_normal(hull, c.nearest));
+        // The ray begins inside: the normal is against its way, or that of the nearest face if it does not move. The
+        // division by the largest component keeps the squares in range.
+        fe_dvec3 normal = fe__hull_unit_normal(hull, c.nearest), d = translation;
+        double most = fe__maxd(fe__absd(d.x), fe__maxd(fe__absd(d.y), fe__absd(d.z)));
+        if (most != 0.0) {
+            d = (fe_dvec3){d.x / most, d.y / most, d.z / most};
+            normal = fe__dscale(-1.0 / sqrt(fe__ddot(d, d)), d);
+        }
         *hit = (fe__ray_hit){.normal = normal, .depth = -c.highest, .inside = 1, .triangle = c.nearest};
         return 1;
     }
@@ -380,17 +369,14 @@ int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation
 }
 
 // ---- hull form ------------------------------------------------------------------------------------------------------
-// The hull as a form: where a scaled, shifted hull ends, and what it weighs. See hull.h.
-
 fe__form fe__hull_form(const fe__hull *hull, int32_t index)
 {
     return (fe__form){.type = FE__FORM_HULL, .hull_field = index, .scale = 1.0f, .offset = hull->origin, .hull = hull};
 }
 
-static fe_dvec3 wide_centre(const fe__form *form) { return fe__from_hull(form, form->hull->mass.centre); }
-fe_vec3 fe__hull_form_centre(const fe__form *form) { return fe__narrow(wide_centre(form)); }
+fe_vec3 fe__hull_form_centre(const fe__form *form) { return fe__narrow(fe__from_hull(form, form->hull->mass.centre)); }
 
-// mass grows with the cube of the scale, moments with the fifth power
+// The mass grows with the cube of the scale, moments with the fifth power.
 fe__mass fe__hull_form_mass(const fe__form *form, double density)
 {
     const fe__hull_mass *m = &form->hull->mass;
@@ -430,7 +416,7 @@ float fe__hull_form_reach(const fe__form *form, fe_vec3 centre)
 
 float fe__hull_form_thickness(const fe__form *form) { return form->scale * form->hull->inner_radius; }
 
-// Each face comes nearer to the centre of mass by `by` at least: none is nearer to it than the inner radius.
+// Each face comes nearer to the centre of mass by `by` at least, because none is nearer to it than the inner radius.
 fe__form fe__hull_form_shrunk(const fe__form *form, float by)
 {
     float keep = 1.0f - by / fe__hull_form_thickness(form);
@@ -451,11 +437,12 @@ fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction)
     return fe__hull_form_vertex(form, fe__hull_support(form->hull, direction));
 }
 
-// The load leans over the edge that the way from the middle of a face to the foot crosses: this is its corner on the
-// left of the way. Corners turn left around the normal. -1: the foot is near the middle
+// ---- faces of a hull form ------------------------------------------------------------------------------------------
+// The load leans over the edge that the way from the middle of a face to the foot crosses. Returns the edge's corner on
+// the left of the way, -1: the foot is near the middle. Corners turn left around the normal.
 static int32_t corner_over_foot(const fe__hull *hull, const fe__hull_face *f, fe_vec3 normal, fe_vec3 foot)
 {
-    const float leans = 0.5f; // of the corner's distance
+    const float leans = 0.5f; // share of the corner's distance from the middle
     fe_vec3 middle = {0.0f, 0.0f, 0.0f};
     for (int32_t i = 0; i < f->count; ++i) middle = fe__add(middle, fe__hull_vertex(hull, hull->corners[f->first + i]));
     middle = fe__scale(1.0f / (float)f->count, middle);
@@ -470,7 +457,8 @@ static int32_t corner_over_foot(const fe__hull *hull, const fe__hull_face *f, fe
     return -1;
 }
 
-// Does the face lean no farther than what is chosen by the load may, and is the edge before that corner as low as any?
+// May the load choose the points? The face must lean no farther than fe__most_lean allows, and the edge before that
+// corner must be as low as any.
 static int32_t leans_there(const fe__hull *hull, const fe__hull_face *f, fe_vec3 direction, int32_t corner)
 {
     float low = -FLT_MAX, high = FLT_MAX, there = -FLT_MAX;
@@ -483,22 +471,11 @@ static int32_t leans_there(const fe__hull *hull, const fe__hull_face *f, fe_vec3
     return there >= low - FE__CLEAR && low - high <= 2.0f * fe__most_lean(0.5f * hull->extent);
 }
 
-// Each vertex of a polygon with fewer stands for some corners side by side: its name stays theirs, whichever it is at.
+// The polygon has fewer vertices than the face has corners. Each vertex stands for some corners side by side and has
+// their number, whichever of them it is at.
 static int32_t vertex_for(const fe__hull_face *f, int32_t count, int32_t corner)
 {
     return ((corner + 1) * count - 1) / f->count;
-}
-
-// The edge before that corner is whole, and so are those on either side of it where there is room.
-static void keep_edge(const fe__hull *hull, const fe__hull_face *f, int32_t corner, fe__face *out)
-{
-    static const int32_t ahead[4] = {1, -2, 0, -1}; // the later of two stays
-    int32_t here = vertex_for(f, out->count, corner);
-    for (int32_t k = 0; k < 4; ++k) {
-        int32_t c = (corner + ahead[k] + f->count) % f->count, i = vertex_for(f, out->count, c);
-        if (ahead[k] == -1 && i == here) i = i > 0 ? i - 1 : out->count - 1;
-        out->vertex[i] = fe__hull_vertex(hull, hull->corners[f->first + c]);
-    }
 }
 
 void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out)
@@ -513,7 +490,15 @@ void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__f
     if (over >= 0 && leans_there(hull, f, deepest, over)) {
         for (int32_t i = 0; i < count; ++i)
             out->vertex[i] = fe__hull_vertex(hull, hull->corners[first + i * all / count]);
-        keep_edge(hull, f, over, out);
+        // The edge before that corner has both its ends, and so have its neighbours if the vertices suffice: of two
+        // corners that share a vertex the later in this order stays.
+        static const int32_t offsets[4] = {1, -2, 0, -1};
+        int32_t over_vertex = vertex_for(f, count, over);
+        for (int32_t k = 0; k < 4; ++k) {
+            int32_t corner = (over + offsets[k] + all) % all, i = vertex_for(f, count, corner);
+            if (offsets[k] == -1 && i == over_vertex) i = i > 0 ? i - 1 : count - 1;
+            out->vertex[i] = fe__hull_vertex(hull, hull->corners[first + corner]);
+        }
         return;
     }
     for (int32_t i = 1; i < all; ++i)
@@ -527,22 +512,14 @@ void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__f
     }
 }
 
-// By how much the way to the vertex at an edge's other end falls back along the direction: a sine
-static double falls_back(const fe__hull *hull, int32_t edge, fe_dvec3 direction)
-{
-    fe_vec3 from = fe__hull_vertex(hull, hull->edges[edge].origin),
-            to = fe__hull_vertex(hull, hull->edges[edge ^ 1].origin);
-    fe_dvec3 way = fe__widen(fe__sub(from, to));
-    return fe__ddot(direction, way) / sqrt(fe__ddot(way, way) * fe__ddot(direction, direction));
-}
-
 static double facing(const fe__hull *hull, int32_t face, fe_dvec3 direction)
 {
     return fe__ddot(direction, fe__widen(fe__hull_normal(hull, face)));
 }
 
-// Of the faces around the farthest vertex that which looks most along the direction: so that vertex is among those
-// given. Where none lies across it, an edge may, as a wedge's that stands: then one of its two faces
+// The face that looks most along the direction, of those around the farthest vertex: so that this vertex is among the
+// face's. If no face lies across the direction, an edge may, as that of a wedge that stands on it: then it is one of
+// the edge's two faces.
 static int32_t face_around(const fe__hull *hull, int32_t vertex, fe_dvec3 direction)
 {
     int32_t first = hull->spokes[vertex], best = hull->edges[first].face, flattest = -1;
@@ -555,8 +532,11 @@ static int32_t face_around(const fe__hull *hull, int32_t vertex, fe_dvec3 direct
     if (most * most > (1.0 - least * least) * fe__ddot(direction, direction)) return best;
     int32_t h = first;
     do {
-        double back = falls_back(hull, h, direction);
-        if (back < least) least = back, flattest = h;
+        fe_vec3 from = fe__hull_vertex(hull, hull->edges[h].origin),
+                to = fe__hull_vertex(hull, hull->edges[h ^ 1].origin);
+        fe_dvec3 way = fe__widen(fe__sub(from, to));
+        double back = fe__ddot(direction, way) / sqrt(fe__ddot(way, way) * fe__ddot(direction, direction));
+        if (back < least) least = back, flattest = h; // `back` is the sine by which the edge falls back.
         h = hull->edges[h ^ 1].next;
     } while (h != first);
     if (flattest < 0) return best;

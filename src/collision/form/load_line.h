@@ -1,18 +1,20 @@
-// load_line.h - the line along which what rests bears on what is below it, and where that line meets a plane.
+// load_line.h - the line along which a resting body bears on the body below it, and its foot on a plane.
 //
-// The narrow phase knows it (step/load.c). Where a face has more corners than a manifold has points, the kernels keep
-// the corners that the load leans over: a body tips over the edge of its face, not of what is left of it.
+// The narrow phase computes it (step/load.c). If a face has more corners than a manifold has points, the kernels keep
+// the corners that the load leans over: a body tips over the edge of its face, not over an edge of the points that are
+// kept.
 #ifndef FE_COLLISION_FORM_LOAD_LINE_H
 #define FE_COLLISION_FORM_LOAD_LINE_H
 #include "collision/form/clip.h"
 
-// A point of the line and its direction, of any length; (0, 0, 0): no load is known.
+// The line passes through `at` along `along`, of any length; (0, 0, 0): no load is known
 typedef struct fe__load {
     fe_vec3 at, along;
-    fe__choice last; // the ids are those of the manifold's points
+    fe__choice last; // ids of the manifold's points
 } fe__load;
 
-// Tells the load to who asks. Most looks find nothing to choose, and the line takes a hundred operations.
+// A kernel asks for the load only when there are points to choose from: the line takes a hundred operations, and mostly
+// nothing is to be chosen.
 typedef struct fe__load_asked {
     fe__load (*tell)(const struct fe__load_asked *asked);
 } fe__load_asked;
@@ -22,7 +24,8 @@ static inline fe__load fe__tell_load(const fe__load_asked *asked)
     return asked ? asked->tell(asked) : (fe__load){.last = {.count = 0}};
 }
 
-// Where it meets the plane through `origin` with the unit normal n. 0: nowhere near, or no load is known
+// Finds the point where the line meets the plane through `origin` with the unit normal n. 0: it does so nowhere near,
+// or no load is known
 static inline int32_t fe__find_foot(const fe__load *load, fe_vec3 origin, fe_vec3 n, fe_vec3 *foot)
 {
     const float steepest = 0.1f; // cosine of the load's angle with the normal
@@ -32,7 +35,7 @@ static inline int32_t fe__find_foot(const fe__load *load, fe_vec3 origin, fe_vec
     return 1;
 }
 
-// The same in the plane's frame, u and v unit
+// The same in the plane's frame; u and v are unit vectors.
 static inline fe__foot fe__foot_in_plane(const fe__load *load, fe_vec3 origin, fe_vec3 u, fe_vec3 v, fe_vec3 n)
 {
     fe_vec3 foot;
@@ -41,8 +44,8 @@ static inline fe__foot fe__foot_in_plane(const fe__load *load, fe_vec3 origin, f
     return (fe__foot){.is_known = 1, .u = fe__dot(u, away), .v = fe__dot(v, away), .last = load->last};
 }
 
-// An id names a vertex within two faces by some of its bits, and the faces by the others. This leaves the vertices'
-// names of a choice that was made of these faces, and no choice of others.
+// Some bits of an id name the two faces, the others name a vertex within them. If the last choice was made of these
+// faces, its ids become the names of the vertices; a choice of other faces is dropped.
 static inline void fe__names_of_vertices(fe__choice *last, uint32_t of_faces, uint32_t faces, uint32_t names[4])
 {
     for (int32_t i = 0; i < last->count; ++i) {
@@ -55,7 +58,7 @@ static inline void fe__names_of_vertices(fe__choice *last, uint32_t of_faces, ui
     last->ids = names;
 }
 
-// Into a frame whose origin is at `origin`, with these axes
+// The load in a frame with its origin at `origin` and these axes.
 static inline fe__load fe__load_in_frame(const fe__load *load, fe_vec3 origin, const fe__mat3 *axes)
 {
     return (fe__load){fe__mul_transposed(axes, fe__sub(load->at, origin)), fe__mul_transposed(axes, load->along),

@@ -1,4 +1,4 @@
-// mesh.c - what is read of a mesh by triangle; see mesh.h.
+// mesh.c - a mesh's triangles by number and by slot, and the walk over those near a box; see mesh.h.
 #include "collision/form/mesh.h"
 
 #include "core/lanes.h"
@@ -6,35 +6,28 @@
 #include <string.h>
 
 // ---- mesh -----------------------------------------------------------------------------------------------------------
-
-// The shortcut of an element that has one
-static int32_t shortcut_from(const fe__mesh *m, int32_t element)
-{
-    int32_t low = 0, high = m->shortcut_count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (m->shortcuts[middle].from < element)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return m->shortcuts[low].to;
-}
-
-// The inverse of a permutation (Munro, Raman, Raman and Rao, Succinct Representations of Permutations, 2003): along the
-// cycle of `number` to its end, which is its slot. The first shortcut that is met leads back to before `number`.
+// Inverts the permutation (Munro, Raman, Raman and Rao, Succinct Representations of Permutations, 2003): it follows the
+// cycle of `number` to its end, which is the slot. The first shortcut that is met leads back to before `number`.
 int32_t fe__mesh_slot(const fe__mesh *m, int32_t number)
 {
-    int32_t at = number, is_back = 0;
-    while (fe__mesh_number(m, at) != number) {
-        if (!is_back && (m->numbers[at] & FE__MESH_HAS_SHORTCUT)) {
-            at = shortcut_from(m, at);
-            is_back = 1;
-        } else {
-            at = fe__mesh_number(m, at);
+    int32_t element = number, is_back = 0;
+    while (fe__mesh_number(m, element) != number) {
+        if (is_back || !(m->numbers[element] & FE__MESH_HAS_SHORTCUT)) {
+            element = fe__mesh_number(m, element);
+            continue;
         }
+        int32_t low = 0, high = m->shortcut_count - 1;
+        while (low < high) { // binary search by `from`
+            int32_t middle = low + (high - low) / 2;
+            if (m->shortcuts[middle].from < element)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        element = m->shortcuts[low].to;
+        is_back = 1;
     }
-    return at;
+    return element;
 }
 
 fe__mesh_edge fe__mesh_edge_of(const fe__mesh *m, int32_t slot, int32_t corner)
@@ -52,7 +45,6 @@ void fe__mesh_corners(const fe__mesh *m, int32_t slot, fe_dvec3 corner[3])
     }
 }
 
-// ---- the form ------------------------------------------------------------------------------------------------------
 fe__form fe__mesh_form(const fe__mesh *m, int32_t index)
 {
     return (fe__form){.type = FE__FORM_MESH, .field = index, .low = m->low, .high = m->high};
@@ -65,21 +57,13 @@ float fe__mesh_reach(const fe__form *form, fe_vec3 centre)
                                fe__maxf(fe__absf(a.z), fe__absf(b.z))));
 }
 
-// ---- mesh walk ------------------------------------------------------------------------------------------------------
-
-// Wider by more than a quotient is rounded
+// ---- the beginning of a walk ----------------------------------------------------------------------------------------
+// Divides an interval by the scale and widens it by more than the rounding of a quotient.
 static void unscale(double scale, double *low, double *high)
 {
     const double rounding = 0x1p-51;
     double a = *low / scale, b = *high / scale, from = fe__mind(a, b), to = fe__maxd(a, b);
     *low = from - rounding * fe__absd(from), *high = to + rounding * fe__absd(to);
-}
-
-static int32_t serves(const fe__mesh_near *near, const fe__bounds *box)
-{
-    const fe_dvec3 *low = &near->box.low, *high = &near->box.high;
-    return near->count >= 0 && box->low.x >= low->x && box->low.y >= low->y && box->low.z >= low->z &&
-           box->high.x <= high->x && box->high.y <= high->y && box->high.z <= high->z;
 }
 
 void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__mesh_near *near, const fe__bounds *box,
@@ -94,14 +78,18 @@ void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__me
     const double low[4] = {walk->box.low.x, walk->box.low.y, walk->box.low.z, 0.0},
                  high[4] = {walk->box.high.x, walk->box.high.y, walk->box.high.z, 0.0};
     for (int32_t k = 0; k < 4; ++k) walk->low[k] = fe__float_above(low[k]), walk->high[k] = -fe__float_above(-high[k]);
-    walk->near = near && serves(near, box) ? near : NULL;
+    int32_t is_inside = near && near->count >= 0 && box->low.x >= near->box.low.x && box->low.y >= near->box.low.y &&
+                        box->low.z >= near->box.low.z && box->high.x <= near->box.high.x &&
+                        box->high.y <= near->box.high.y && box->high.z <= near->box.high.z;
+    walk->near = is_inside ? near : NULL;
     walk->slot = 0, walk->end = walk->near ? near->count : 0;
     walk->top = !walk->near;
     walk->stack[0] = 0; // the root
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
-// Eight bytes in a word. Bit 7 of each byte: byte of x is at least that of y (Warren, Hacker's Delight, 2-18)
+// A word holds eight bytes. Bit 7 of each byte of the result tells whether the byte of x is at least the byte of y
+// (Warren, Hacker's Delight, 2013, 2-18).
 #define BYTES 0x0101010101010101u
 #define TOPS (0x80 * BYTES)
 static inline uint64_t at_least(uint64_t x, uint64_t y)
@@ -117,7 +105,8 @@ static inline uint64_t word_of(const uint8_t bytes[FE__MESH_WIDTH])
     return word;
 }
 
-// Bit i: the top bit of byte i of memory. The products of one byte each meet in no bit
+// Bit i of the result is the top bit of byte i in memory. The multiplication adds the bits, each shifted to a place of
+// its own.
 static inline uint32_t gather_tops(uint64_t tops)
 {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -126,7 +115,7 @@ static inline uint32_t gather_tops(uint64_t tops)
     return (uint32_t)((tops >> 7) * 0x0102040810204080u >> 56);
 }
 
-// Bit i: the box meets that of child i. Steps are whole; the box is widened by more than what is rounded.
+// Bit i of the result: the box meets the box of child i. Steps are whole; the box is widened by more than rounding.
 static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
 {
     const double widening = 1e-4; // steps
@@ -146,18 +135,30 @@ static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
     return gather_tops(met & TOPS) & ((1u << node->count) - 1);
 }
 
-// The first child on top
-static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
+// Goes down to the next leaf whose box is met; 0: no more
+static int32_t find_leaf(fe__mesh_walk *w)
 {
-    uint32_t met = meet_boxes(w, node);
-    for (; met; met &= ~(1u << (31 - __builtin_clz(met))))
-        w->stack[w->top++] = node->first + (uint32_t)(31 - __builtin_clz(met));
+    while (w->top) {
+        uint32_t child = w->stack[--w->top];
+        if (!(child & FE__MESH_LEAVES)) {
+            // The first of the children that are met comes on top.
+            const fe__mesh_node *node = w->mesh->nodes + child;
+            for (uint32_t met = meet_boxes(w, node); met; met &= ~(1u << (31 - __builtin_clz(met))))
+                w->stack[w->top++] = node->first + (uint32_t)(31 - __builtin_clz(met));
+            continue;
+        }
+        w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
+        w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+        return 1;
+    }
+    return 0;
 }
 
 // ---- triangles -----------------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Corner k of a triangle is the three floats at first + 3 corner[k], and one behind them that is another vertex's
+// Corner k of a triangle is the three floats at first + 3 corner[k]. A fourth is read behind them; it belongs to
+// another vertex.
 typedef struct corners {
     const float *first;
     const uint8_t *corner;
@@ -174,15 +175,15 @@ static inline fe__quad load_corner(const corners *c, int32_t k)
 
 static void set_span(const fe__mesh *mesh, int32_t slot, fe__mesh_span *out)
 {
-    const corners of = corners_of(mesh, slot);
-    fe__quad a = load_corner(&of, 0), b = load_corner(&of, 1), c = load_corner(&of, 2);
+    const corners triangle = corners_of(mesh, slot);
+    fe__quad a = load_corner(&triangle, 0), b = load_corner(&triangle, 1), c = load_corner(&triangle, 2);
     *(fe__quad *)out->low = fe__quad_min(fe__quad_min(a, b), c);
     *(fe__quad *)out->high = fe__quad_max(fe__quad_max(a, b), c);
 }
 
 static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
 {
-    enum { THREE = 7 }; // the fourth lane is another vertex's, or none
+    enum { THREE = 7 }; // The fourth lane is another vertex's, or no vertex's.
     fe__quad_int met = (*(const fe__quad *)s->low <= *(const fe__quad *)w->high) &
                        (*(const fe__quad *)s->high >= *(const fe__quad *)w->low);
     return (fe__quad_signs(met) & THREE) == THREE;
@@ -190,40 +191,31 @@ static int32_t meets(const fe__mesh_walk *w, const fe__mesh_span *s)
 
 void fe__mesh_triangle(const fe__mesh *mesh, int32_t slot, fe_dvec3 origin, fe__form *triangle)
 {
-    const corners of = corners_of(mesh, slot);
+    const corners unscaled = corners_of(mesh, slot);
     const double *s = mesh->scale;
     const fe__doubles scale_xy = {s[0], s[1]}, scale_z = {s[2], s[2]}, xy = {origin.x, origin.y},
                       z = {origin.z, origin.z};
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     for (int32_t k = 0; k < 3; ++k) {
-        fe__quad p = load_corner(&of, fe__mesh_own_corner(mesh, k));
+        fe__quad p = load_corner(&unscaled, fe__mesh_own_corner(mesh, k));
         fe__quad corner = fe__quad_narrow(scale_xy * fe__doubles_low(p) - xy, scale_z * fe__doubles_high(p) - z);
         memcpy(triangle->vertex + k, &corner, sizeof *triangle->vertex);
     }
 }
 
-// Down to the next leaf whose box is met; 0: no more
-static int32_t find_leaf(fe__mesh_walk *w)
+// ---- the walk ------------------------------------------------------------------------------------------------------
+int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w)
 {
-    while (w->top) {
-        uint32_t child = w->stack[--w->top];
-        if (!(child & FE__MESH_LEAVES)) {
-            open_node(w, w->mesh->nodes + child);
-            continue;
+    if (w->near) {
+        while (w->slot < w->end) {
+            int32_t place = w->slot++;
+            if (meets(w, w->near->spans + place)) return w->near->slots[place];
         }
-        w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
-        w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
-        return 1;
+        return -1;
     }
-    return 0;
-}
-
-// The next slot whose triangle meets the box, -1: no more
-static int32_t next_in_tree(fe__mesh_walk *w)
-{
-    fe__mesh_span span;
     do {
         while (w->slot < w->end) {
+            fe__mesh_span span;
             int32_t slot = w->slot++;
             set_span(w->mesh, slot, &span);
             if (meets(w, &span)) return slot;
@@ -232,17 +224,6 @@ static int32_t next_in_tree(fe__mesh_walk *w)
     return -1;
 }
 
-static int32_t next_of_near(fe__mesh_walk *w)
-{
-    while (w->slot < w->end) {
-        int32_t place = w->slot++;
-        if (meets(w, w->near->spans + place)) return w->near->slots[place];
-    }
-    return -1;
-}
-
-int32_t fe__mesh_walk_next_slot(fe__mesh_walk *w) { return w->near ? next_of_near(w) : next_in_tree(w); }
-
 int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
 {
     int32_t slot = fe__mesh_walk_next_slot(w);
@@ -250,27 +231,24 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
     return slot;
 }
 
-// Those of the walk's leaf that meet its box. Which do no branch can guess: each is written, and the next over it if it
-// does not count
-static void add_leaf(const fe__mesh_walk *w, fe__mesh_near *near)
-{
-    for (int32_t slot = w->slot; slot < w->end && near->count >= 0; ++slot) {
-        fe__mesh_span span;
-        set_span(w->mesh, slot, &span);
-        int32_t met = meets(w, &span);
-        if (near->count < FE__MESH_NEAR) {
-            near->spans[near->count] = span;
-            near->slots[near->count] = slot;
-            near->count += met;
-        } else if (met)
-            near->count = -1;
-    }
-}
-
+// No branch predictor can guess which triangles meet the box: each is written, and the next one over it if it does not
+// count.
 void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
 {
     fe__mesh_walk walk;
     near->box = *box, near->count = 0, near->is_all = 0, near->among = near->among_last = 0;
     fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
-    while (near->count >= 0 && find_leaf(&walk)) add_leaf(&walk, near);
+    while (near->count >= 0 && find_leaf(&walk))
+        for (int32_t slot = walk.slot; slot < walk.end && near->count >= 0; ++slot) {
+            fe__mesh_span span;
+            set_span(mesh, slot, &span);
+            int32_t is_met = meets(&walk, &span);
+            if (near->count < FE__MESH_NEAR) {
+                near->spans[near->count] = span;
+                near->slots[near->count] = slot;
+                near->count += is_met;
+            } else if (is_met) {
+                near->count = -1;
+            }
+        }
 }

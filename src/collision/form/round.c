@@ -1,8 +1,7 @@
-// round.c - the ball: radius.
+// round.c - the traits of sphere, capsule, cylinder and cone (form_table.c), and the circle that the last two share.
 #include "collision/form/form_kinds.h"
 
 // ---- sphere ---------------------------------------------------------------------------------------------------------
-
 fe__mass fe__sphere_mass(const fe__form *form, double density)
 {
     double r = (double)form->radius, mass = density * (4.0 / 3.0) * (double)FE_PI * r * r * r;
@@ -18,10 +17,8 @@ fe__bounds fe__sphere_bounds(const fe__form *form, const fe__pose *pose)
 }
 
 // ---- capsule --------------------------------------------------------------------------------------------------------
-// The capsule: half_height of its axis, along y, and radius.
-
-// A cylinder of length 2h and two half balls. A half ball's centre of mass is 3r/8 beyond the flat side, so that about
-// the capsule's centre, by Steiner, both together have  m (2/5 r^2 + h^2 + 3/4 h r)  across the axis.
+// A capsule is a cylinder of length 2h and two half balls. A half ball's centre of mass is 3r/8 beyond the flat side,
+// so that about the capsule's centre, by Steiner, both together have  m (2/5 r^2 + h^2 + 3/4 h r)  across the axis.
 fe__mass fe__capsule_mass(const fe__form *form, double density)
 {
     double r = (double)form->radius, h = (double)form->half_height, rr = r * r;
@@ -48,7 +45,7 @@ void fe__capsule_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 }
 
 // ---- cylinder -------------------------------------------------------------------------------------------------------
-// The cylinder: half.y of its height, along y, and half.x = half.z, its radius.
+// half.y is half the height, along y; half.x = half.z is the radius.
 
 // m = rho pi r^2 2h,  along the axis m r^2 / 2,  across it m (r^2 / 4 + h^2 / 3)
 fe__mass fe__cylinder_mass(const fe__form *form, double density)
@@ -59,7 +56,7 @@ fe__mass fe__cylinder_mass(const fe__form *form, double density)
     return (fe__mass){.mass = (float)mass, .inertia = {across, along, across}};
 }
 
-// Along a world axis that is inclined to the cylinder's, a its cosine: |a| h + sqrt(1 - a^2) r
+// The half width along a world axis that has the components (x, y, z) on the cylinder's axes: |y| h + sqrt(1 - y^2) r.
 static double width(double x, double y, double z, const fe__form *form)
 {
     return fe__absd(y) * (double)form->half.y + sqrt(x * x + z * z) * (double)form->half.x;
@@ -88,7 +85,7 @@ fe_dvec3 fe__cylinder_support(const fe__form *form, fe_dvec3 direction)
     return fe__rim_support(form->half.x, direction.y < 0.0 ? -h : h, direction);
 }
 
-// A disc, or the line on the side that looks that way.
+// The disc at one end or, if the direction points more across the axis than along it, the line on that side.
 void fe__cylinder_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 {
     float across = sqrtf(direction.x * direction.x + direction.z * direction.z), h = form->half.y;
@@ -105,7 +102,7 @@ void fe__cylinder_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 }
 
 // ---- cone -----------------------------------------------------------------------------------------------------------
-// The cone: its tip at +half.y, its base at -half.y along y, the base's radius half.x = half.z.
+// The tip is at +half.y, the base at -half.y along y; half.x = half.z is the base's radius.
 
 // With the height H = 2h: m = rho pi r^2 H / 3, the centre H / 4 above the base; along the axis 3/10 m r^2, across it,
 // about that centre, 3/20 m r^2 + 3/80 m H^2.
@@ -119,7 +116,7 @@ fe__mass fe__cone_mass(const fe__form *form, double density)
                       .centre = {0.0f, -0.5f * form->half.y, 0.0f}};
 }
 
-// The tip's coordinate and the base circle's span
+// The interval along a world axis that tip and base circle cover; (x, y, z) are as above, `at` is the cone's position.
 static void span(double x, double y, double z, const fe__form *form, double at, double *low, double *high)
 {
     double tip = y * (double)form->half.y, rim = sqrt(x * x + z * z) * (double)form->half.x;
@@ -145,14 +142,14 @@ float fe__cone_reach(const fe__form *form, fe_vec3 centre)
     return fe__maxf(sqrtf(aside * aside + to_tip * to_tip), sqrtf(to_rim * to_rim + to_base * to_base));
 }
 
-// The ball about the origin that touches the side, r h / sqrt(r^2 + 4 h^2); the base is farther
+// The radius of the ball about the origin that touches the side, r h / sqrt(r^2 + 4 h^2); the base is farther.
 float fe__cone_thickness(const fe__form *form)
 {
     float r = form->half.x, h = form->half.y;
     return r * h / sqrtf(r * r + 4.0f * h * h);
 }
 
-// scaled about the origin, from which side and base are a thickness away, or more
+// The cone is scaled about the origin. Side and base are a thickness away from there, or more.
 fe__form fe__cone_shrunk(const fe__form *form, float by)
 {
     fe__form thin = *form;
@@ -160,7 +157,7 @@ fe__form fe__cone_shrunk(const fe__form *form, float by)
     return thin;
 }
 
-// The tip, where h d.y >= r |d across| - h d.y; else the rim
+// The tip if h d.y > r |d across| - h d.y, else a point of the rim.
 fe_dvec3 fe__cone_support(const fe__form *form, fe_dvec3 direction)
 {
     double r = (double)form->half.x, h = (double)form->half.y,
@@ -169,7 +166,8 @@ fe_dvec3 fe__cone_support(const fe__form *form, fe_dvec3 direction)
     return fe__rim_support(form->half.x, -h, direction);
 }
 
-// The base, or the line on the side that looks that way: halfway between the base's normal and the side's they meet.
+// The base, or the line on the side that looks that way. The choice changes halfway between the base's normal and the
+// side's.
 void fe__cone_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 {
     float across = sqrtf(direction.x * direction.x + direction.z * direction.z), r = form->half.x, h = form->half.y;
@@ -187,49 +185,30 @@ void fe__cone_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 }
 
 // ---- rim ------------------------------------------------------------------------------------------------------------
-// What cylinder and cone share: a circle about the y axis.
+// The circle about the y axis that ends a cylinder or a cone.
 
-#define C1 0.92387953f // cosines of 22.5, 45 and 67.5 degrees
+// Row 0 stands at steps of 22.5 degrees; C1, C2, C3 are the cosines of 22.5, 45 and 67.5 degrees. Row 1 is an aimed
+// rim: 0 and 6 degrees, seven sectors of 174 / 7 degrees to 180 and 186, and as many back.
+// clang-format off
+#define C1 0.92387953f
 #define C2 0.70710678f
 #define C3 0.38268343f
-// Those of an aimed rim: 0 and 6 degrees, seven sectors of 174 / 7 degrees to 180 and 186, and as many back.
-const float fe__rim_points[2][FE_RIM_POINTS][2] = {{{1, 0},
-                                                    {C1, C3},
-                                                    {C2, C2},
-                                                    {C3, C1},
-                                                    {0, 1},
-                                                    {-C3, C1},
-                                                    {-C2, C2},
-                                                    {-C1, C3},
-                                                    {-1, 0},
-                                                    {-C1, -C3},
-                                                    {-C2, -C2},
-                                                    {-C3, -C1},
-                                                    {0, -1},
-                                                    {C3, -C1},
-                                                    {C2, -C2},
-                                                    {C1, -C3}},
-                                                   {{1, 0},
-                                                    {0.99452190f, 0.10452846f},
-                                                    {0.85844879f, 0.51289928f},
-                                                    {0.56332006f, 0.82623877f},
-                                                    {0.16381791f, 0.98649059f},
-                                                    {-0.26603685f, 0.96396286f},
-                                                    {-0.64659960f, 0.76282957f},
-                                                    {-0.90735869f, 0.42035723f},
-                                                    {-1, 0},
-                                                    {-0.99452190f, -0.10452846f},
-                                                    {-0.85844879f, -0.51289928f},
-                                                    {-0.56332006f, -0.82623877f},
-                                                    {-0.16381791f, -0.98649059f},
-                                                    {0.26603685f, -0.96396286f},
-                                                    {0.64659960f, -0.76282957f},
-                                                    {0.90735869f, -0.42035723f}}};
-#define AIMED_COS 0.99862953f // of 3 degrees, by which the first point stands beside the aim
+const float fe__rim_points[2][FE_RIM_POINTS][2] = {
+    {{ 1,   0}, { C1,  C3}, { C2,  C2}, { C3,  C1}, {0,  1}, {-C3,  C1}, {-C2,  C2}, {-C1,  C3},
+     {-1,   0}, {-C1, -C3}, {-C2, -C2}, {-C3, -C1}, {0, -1}, { C3, -C1}, { C2, -C2}, { C1, -C3}},
+    {{ 1,   0},                     { 0.99452190f,  0.10452846f}, { 0.85844879f,  0.51289928f},
+     { 0.56332006f,  0.82623877f},  { 0.16381791f,  0.98649059f}, {-0.26603685f,  0.96396286f},
+     {-0.64659960f,  0.76282957f},  {-0.90735869f,  0.42035723f},
+     {-1,   0},                     {-0.99452190f, -0.10452846f}, {-0.85844879f, -0.51289928f},
+     {-0.56332006f, -0.82623877f},  {-0.16381791f, -0.98649059f}, { 0.26603685f, -0.96396286f},
+     { 0.64659960f, -0.76282957f},  { 0.90735869f, -0.42035723f}}};
+// clang-format on
+// The first point of an aimed rim stands 3 degrees beside the aim.
+#define AIMED_COS 0.99862953f
 #define AIMED_SIN 0.05233596f
 
-// A rim whose lowest point is no farther below its centre than this, m, and this share of the radius, lies flat: a
-// twentieth of the solver's slop of 5 mm
+// A rim lies flat if its lowest point is no farther below its centre than this, m, and than this share of the radius.
+// It is a twentieth of the solver's slop of 5 mm.
 #define LEVEL 0.00025f
 #define LEVEL_SHARE 0.005f
 
@@ -241,16 +220,17 @@ fe_dvec3 fe__rim_support(float radius, double y, fe_dvec3 direction)
     return (fe_dvec3){scale * direction.x, y, scale * direction.z};
 }
 
-// An angle about y, from x to z
+// An angle about y, from x to z.
 typedef struct angle {
     float cosine, sine;
 } angle;
 
-// Does the load lean over half of the radius or more, and that way alone? The square of the points that stay with the
-// body holds what leans less. `drop`: how far the rim's lowest point, at `low`, is below its centre, m
+// Does the load lean over half of the radius or more, and does the rim lean that way too, or not at all? The square of
+// points that stay with the body holds a load that leans less. `drop` is how far the rim's lowest point, at `low`, is
+// below its centre, m.
 static int32_t is_aimed(float radius, float drop, angle low, const fe_vec3 *foot, angle *aim)
 {
-    const float leans = 0.5f, same_way = 0.9f; // of the radius; cosine
+    const float leans = 0.5f, same_way = 0.9f; // share of the radius; cosine
     if (!foot) return 0;
     float away = sqrtf(foot->x * foot->x + foot->z * foot->z);
     if (!(away > leans * radius)) return 0;
@@ -259,9 +239,9 @@ static int32_t is_aimed(float radius, float drop, angle low, const fe_vec3 *foot
     return drop <= fe__most_lean(radius) && aim->cosine * low.cosine + aim->sine * low.sine > same_way;
 }
 
-// A face gives some points of its rim. At equal angles, the first along x, they stay with the body, so that what stands
-// keeps its contacts; but where the face leans, one of them is the deepest point. All turn left around the normal:
-// against the sense from x to z where it looks up.
+// A disc gives some points of its rim. At equal angles, the first along x, they stay with the body, so that a body that
+// stands keeps its contacts; but if the disc leans, they turn so that one of them is the deepest point. All turn left
+// around the normal: against the sense from x to z if it looks up.
 void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face)
 {
     float across = sqrtf(direction.x * direction.x + direction.z * direction.z),

@@ -1,33 +1,11 @@
-// surface.c - see surface.h.
+// surface.c - the triangles and the edges of each kind of form; see surface.h.
 #include "collision/surface/surface.h"
 
 #include "collision/form/form_kinds.h"
 #include "collision/form/hull.h"
 #include "core/math.h"
 
-// ---- kinds ----------------------------------------------------------------------------------------------------------
-// What draws each kind of form (surface.c).
-
-// surface.c: surfaces of revolution, that is spheres, capsules, cylinders and cones
-void fe__draw_round(const fe__drawn *s, fe__pen *pen);
-void fe__draw_round_lines(const fe__drawn *s, fe__pen *pen);
-
-// surface.c
-void fe__draw_box(const fe__drawn *s, fe__pen *pen);
-void fe__draw_box_lines(const fe__drawn *s, fe__pen *pen);
-void fe__draw_hull(const fe__drawn *s, fe__pen *pen);
-void fe__draw_hull_lines(const fe__drawn *s, fe__pen *pen);
-
-// surface.c
-void fe__draw_plane(const fe__drawn *s, fe__pen *pen);
-void fe__draw_plane_lines(const fe__drawn *s, fe__pen *pen);
-
-// surface.c: heightfields and meshes
-void fe__draw_field(const fe__drawn *s, fe__pen *pen);
-void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen);
-
-// ---- surface --------------------------------------------------------------------------------------------------------
-
+// ---- circles, frames, boxes -----------------------------------------------------------------------------------------
 void fe__circle_make(fe__circle *c, int32_t segments)
 {
     const double whole = 6.283185307179586, quarter = 0.25 * whole;
@@ -36,7 +14,7 @@ void fe__circle_make(fe__circle *c, int32_t segments)
     c->sine[segments] = c->sine[0], c->cosine[segments] = c->cosine[0];
     for (int32_t i = 0; i <= c->steps; ++i)
         fe__sincos(quarter * (double)i / (double)c->steps, c->arc_sine + i, c->arc_cosine + i);
-    c->arc_cosine[c->steps] = 0.0; // poles are points
+    c->arc_cosine[c->steps] = 0.0; // Poles are points.
 }
 
 void fe__surface_place(fe__drawn *s)
@@ -60,29 +38,6 @@ void fe__pen_box(fe__pen *pen, fe_vec3 low, fe_vec3 high)
     }
 }
 
-// ---- table ----------------------------------------------------------------------------------------------------------
-// Which file draws which form; see surface.h.
-
-typedef struct draw_traits {
-    void (*triangles)(const fe__drawn *s, fe__pen *pen);
-    void (*lines)(const fe__drawn *s, fe__pen *pen);
-} draw_traits;
-
-static const draw_traits traits[FE__FORM_TYPES] = {
-    [FE__FORM_SPHERE] = {fe__draw_round, fe__draw_round_lines},
-    [FE__FORM_CAPSULE] = {fe__draw_round, fe__draw_round_lines},
-    [FE__FORM_BOX] = {fe__draw_box, fe__draw_box_lines},
-    [FE__FORM_CYLINDER] = {fe__draw_round, fe__draw_round_lines},
-    [FE__FORM_CONE] = {fe__draw_round, fe__draw_round_lines},
-    [FE__FORM_HULL] = {fe__draw_hull, fe__draw_hull_lines},
-    [FE__FORM_PLANE] = {fe__draw_plane, fe__draw_plane_lines},
-    [FE__FORM_HEIGHTFIELD] = {fe__draw_field, fe__draw_field_lines},
-    [FE__FORM_MESH] = {fe__draw_field, fe__draw_field_lines},
-};
-
-void fe__surface_triangles(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].triangles(s, pen); }
-void fe__surface_lines(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].lines(s, pen); }
-
 fe_vec3 fe__surface_half_extents(const fe__form *form)
 {
     switch (form->type) {
@@ -99,11 +54,8 @@ fe_vec3 fe__surface_half_extents(const fe__form *form)
     }
 }
 
-// ---- flat -----------------------------------------------------------------------------------------------------------
-// Boxes and convex hulls.
-
 // ---- boxes ---------------------------------------------------------------------------------------------------------
-// Corner i: bit 0 is the side along x, bit 1 along y, bit 2 along z
+// Bit 0 of a corner's number is the side along x, bit 1 along y, bit 2 along z.
 static void box_corners(const fe__drawn *s, fe_vec3 corner[8])
 {
     fe_dvec3 half = fe__widen(s->form->half);
@@ -112,7 +64,7 @@ static void box_corners(const fe__drawn *s, fe_vec3 corner[8])
                                                     i & 4 ? half.z : -half.z});
 }
 
-void fe__draw_box(const fe__drawn *s, fe__pen *pen)
+static void draw_box(const fe__drawn *s, fe__pen *pen)
 {
     static const uint8_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
@@ -126,7 +78,7 @@ void fe__draw_box(const fe__drawn *s, fe__pen *pen)
     }
 }
 
-void fe__draw_box_lines(const fe__drawn *s, fe__pen *pen)
+static void draw_box_lines(const fe__drawn *s, fe__pen *pen)
 {
     if (fe__pen_skips(pen, 24)) return;
     fe_vec3 c[8];
@@ -142,8 +94,8 @@ static fe_vec3 vertex_of(const fe__drawn *s, int32_t vertex)
     return fe__surface_point(s, fe__from_hull(s->form, fe__widen(fe__hull_vertex(s->form->hull, vertex))));
 }
 
-// A face is a fan around its first corner. V - E + F = 2: all fans together have 2 V - 4 triangles
-void fe__draw_hull(const fe__drawn *s, fe__pen *pen)
+// A face is a fan around its first corner. With V - E + F = 2, all fans together have 2 E - 2 F triangles.
+static void draw_hull(const fe__drawn *s, fe__pen *pen)
 {
     const fe__hull *hull = s->form->hull;
     if (fe__pen_skips(pen, 3 * (2 * (int64_t)hull->edge_count - 2 * hull->face_count))) return;
@@ -158,7 +110,7 @@ void fe__draw_hull(const fe__drawn *s, fe__pen *pen)
     }
 }
 
-void fe__draw_hull_lines(const fe__drawn *s, fe__pen *pen)
+static void draw_hull_lines(const fe__drawn *s, fe__pen *pen)
 {
     const fe__hull *hull = s->form->hull;
     if (fe__pen_skips(pen, 2 * (int64_t)hull->edge_count)) return;
@@ -166,18 +118,17 @@ void fe__draw_hull_lines(const fe__drawn *s, fe__pen *pen)
         fe__pen_line(pen, vertex_of(s, hull->edges[2 * i].origin), vertex_of(s, hull->edges[2 * i + 1].origin));
 }
 
-// ---- round ----------------------------------------------------------------------------------------------------------
-// Surfaces of revolution about the y axis: balls, capsules, cylinders, cones.
-//
-// A profile of points (radius, y), from the bottom to the top, turns around the axis. Between two of its points lies a
-// band; where one is on the axis, the band is a fan.
+// ---- surfaces of revolution ----------------------------------------------------------------------------------------
+// Spheres, capsules, cylinders and cones are surfaces of revolution about the y axis. A profile of points (radius, y),
+// from the bottom to the top, turns around the axis. Between two of its points lies a band; if one of them is on the
+// axis, the band is a fan.
 
 enum { PROFILE = 2 * FE__ARC_STEPS + 2 };
 
 typedef struct profile {
     int32_t count;
     double radius[PROFILE], y[PROFILE];
-    int32_t rings[2]; // points whose circle is an edge
+    int32_t rings[2]; // The circles of these points are edges.
 } profile;
 
 static void add(profile *p, double radius, double y)
@@ -186,12 +137,15 @@ static void add(profile *p, double radius, double y)
     ++p->count;
 }
 
-// Two half circles around the ends of the axis; of a sphere the two ends, and the two circles there, are one
-static profile ball_profile(const fe__drawn *s)
+static profile profile_of(const fe__drawn *s)
 {
     profile p = {.count = 0};
     const fe__circle *c = s->circle;
-    double r = (double)s->form->radius, h = (double)s->form->half_height;
+    double r = (double)s->form->half.x, h = (double)s->form->half.y;
+    if (s->form->type == FE__FORM_CYLINDER) return (profile){4, {0.0, r, r, 0.0}, {-h, -h, h, h}, {1, 2}};
+    if (s->form->type == FE__FORM_CONE) return (profile){3, {0.0, r, 0.0}, {-h, -h, h}, {1, 1}};
+    // A capsule has two half circles around the ends of its axis; those of a sphere, and their edges, are one.
+    r = (double)s->form->radius, h = (double)s->form->half_height;
     for (int32_t i = c->steps; i >= 0; --i) add(&p, r * c->arc_cosine[i], -r * c->arc_sine[i] - h);
     p.rings[0] = p.rings[1] = c->steps;
     if (h > 0.0) p.rings[1] = c->steps + 1;
@@ -199,60 +153,34 @@ static profile ball_profile(const fe__drawn *s)
     return p;
 }
 
-static profile cylinder_profile(const fe__drawn *s)
-{
-    double r = (double)s->form->half.x, h = (double)s->form->half.y;
-    return (profile){4, {0.0, r, r, 0.0}, {-h, -h, h, h}, {1, 2}};
-}
-
-static profile cone_profile(const fe__drawn *s)
-{
-    double r = (double)s->form->half.x, h = (double)s->form->half.y;
-    return (profile){3, {0.0, r, 0.0}, {-h, -h, h}, {1, 1}};
-}
-
 static fe_vec3 point_of(const fe__drawn *s, const profile *p, int32_t i, double cosine, double sine)
 {
     return fe__surface_point(s, (fe_dvec3){p->radius[i] * cosine, p->y[i], p->radius[i] * sine});
 }
 
-// A quarter turn from x is z, which is clockwise about y: outside, upwards comes before onwards
-static void draw_band(const fe__drawn *s, const profile *p, int32_t i, fe__pen *pen)
+// A quarter turn from x leads to z, which is clockwise about y: seen from outside, a triangle that turns left goes up
+// before it goes on.
+static void draw_round(const fe__drawn *s, fe__pen *pen)
 {
     const fe__circle *c = s->circle;
-    int32_t below = p->radius[i] > 0.0, above = p->radius[i + 1] > 0.0;
-    fe_vec3 a = point_of(s, p, i, 1.0, 0.0), b = point_of(s, p, i + 1, 1.0, 0.0);
-    for (int32_t k = 1; k <= c->segments; ++k) {
-        fe_vec3 next_a = below ? point_of(s, p, i, c->cosine[k], c->sine[k]) : a;
-        fe_vec3 next_b = above ? point_of(s, p, i + 1, c->cosine[k], c->sine[k]) : b;
-        if (above) fe__pen_triangle(pen, a, b, next_b);
-        if (below) fe__pen_triangle(pen, a, next_b, next_a);
-        a = next_a, b = next_b;
-    }
-}
-
-static profile profile_of(const fe__drawn *s)
-{
-    switch (s->form->type) {
-    case FE__FORM_CYLINDER:
-        return cylinder_profile(s);
-    case FE__FORM_CONE:
-        return cone_profile(s);
-    default:
-        return ball_profile(s);
-    }
-}
-
-void fe__draw_round(const fe__drawn *s, fe__pen *pen)
-{
     const profile p = profile_of(s);
-    // both ends are on the axis: all bands but two have two triangles a segment
-    if (fe__pen_skips(pen, 3 * (int64_t)s->circle->segments * (2 * (p.count - 1) - 2))) return;
-    for (int32_t i = 0; i + 1 < p.count; ++i) draw_band(s, &p, i, pen);
+    // Both ends are on the axis: all bands but two have two triangles a segment.
+    if (fe__pen_skips(pen, 3 * (int64_t)c->segments * (2 * (p.count - 1) - 2))) return;
+    for (int32_t i = 0; i + 1 < p.count; ++i) {
+        int32_t below = p.radius[i] > 0.0, above = p.radius[i + 1] > 0.0;
+        fe_vec3 a = point_of(s, &p, i, 1.0, 0.0), b = point_of(s, &p, i + 1, 1.0, 0.0);
+        for (int32_t k = 1; k <= c->segments; ++k) {
+            fe_vec3 next_a = below ? point_of(s, &p, i, c->cosine[k], c->sine[k]) : a;
+            fe_vec3 next_b = above ? point_of(s, &p, i + 1, c->cosine[k], c->sine[k]) : b;
+            if (above) fe__pen_triangle(pen, a, b, next_b);
+            if (below) fe__pen_triangle(pen, a, next_b, next_a);
+            a = next_a, b = next_b;
+        }
+    }
 }
 
-// The circles, and the profile on four sides
-void fe__draw_round_lines(const fe__drawn *s, fe__pen *pen)
+// The lines are the circles, and the profile on four sides.
+static void draw_round_lines(const fe__drawn *s, fe__pen *pen)
 {
     static const double cosine[4] = {1.0, 0.0, -1.0, 0.0}, sine[4] = {0.0, 1.0, 0.0, -1.0};
     const fe__circle *c = s->circle;
@@ -269,13 +197,11 @@ void fe__draw_round_lines(const fe__drawn *s, fe__pen *pen)
                          point_of(s, &p, i + 1, cosine[side], sine[side]));
 }
 
-// ---- plane ----------------------------------------------------------------------------------------------------------
-// The piece of a plane that a drawing shows: a grid, or a polygon.
-//
-// A plane has no end. What is drawn of it lies in the drawing's box, and not farther than FE__PLANE_REACH from the
-// point of it that is nearest to the drawing's origin.
+// ---- planes --------------------------------------------------------------------------------------------------------
+// A plane has no end. A drawing shows a piece of it, as a polygon or a grid: the piece that lies in the drawing's box,
+// and not farther than FE__PLANE_REACH from the plane's point nearest to the drawing's origin.
 
-enum { CORNERS = 12 }; // a square, cut by six planes, has at most ten
+enum { CORNERS = 12 }; // A square that is cut by six planes has at most ten.
 
 typedef struct polygon {
     int32_t count;
@@ -284,15 +210,15 @@ typedef struct polygon {
 
 typedef struct piece {
     fe_dvec3 normal, u, v; // unit, u x v is the normal
-    fe_dvec3 nearest;      // point of the plane to the drawing's origin, relative to it
-    fe_dvec3 low, high;    // of the box in which it is drawn, relative to the origin
-    polygon edge;          // turns left about the normal; no corner: nothing of it is drawn
+    fe_dvec3 nearest;      // the plane's point nearest to the drawing's origin, relative to the origin
+    fe_dvec3 low, high;    // the box in which the plane is drawn, relative to the origin
+    polygon edge;          // turns left about the normal; no corners: nothing is drawn
 } piece;
 
-// ---- the polygon ---------------------------------------------------------------------------------------------------
 static double part(fe_dvec3 a, int32_t axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
 
-// What of it lies where sign (p - limit) <= 0 along the axis (Sutherland and Hodgman, Reentrant polygon clipping, 1974)
+// The part of the polygon with  sign (p - limit) <= 0  along the axis (Sutherland and Hodgman, Reentrant polygon
+// clipping, 1974).
 static polygon cut(const polygon *p, int32_t axis, double sign, double limit)
 {
     polygon out = {.count = 0};
@@ -311,47 +237,42 @@ static fe_dvec3 clamped(fe_dvec3 p, fe_dvec3 low, fe_dvec3 high)
     return (fe_dvec3){fe__clampd(p.x, low.x, high.x), fe__clampd(p.y, low.y, high.y), fe__clampd(p.z, low.z, high.z)};
 }
 
-// Along the world's axes where the plane is: u is the axis that is most across the normal, as far as it is
-static void choose_axes(piece *p)
+static piece piece_of(const fe__drawn *s)
 {
-    fe_dvec3 n = p->normal, axis = {0.0, 0.0, 1.0};
+    fe_dvec3 n = fe__drotate(s->pose.rotation, fe__widen(s->form->normal)), axis = {0.0, 0.0, 1.0};
+    const fe_dvec3 reach = {FE__PLANE_REACH, FE__PLANE_REACH, FE__PLANE_REACH};
+    n = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+    piece p = {.normal = n, .nearest = fe__dscale(fe__ddot(n, s->at) + (double)s->form->distance, n)};
+    // u is the part across the normal of the world's axis that is most across it.
     double x = fe__absd(n.x), y = fe__absd(n.y), z = fe__absd(n.z);
     if (x <= y && x <= z)
         axis = (fe_dvec3){1.0, 0.0, 0.0};
     else if (y <= z)
         axis = (fe_dvec3){0.0, 1.0, 0.0};
-    fe_dvec3 u = fe__dsub(axis, fe__dscale(fe__ddot(axis, n), n));
-    p->u = fe__dscale(1.0 / sqrt(fe__ddot(u, u)), u);
-    p->v = fe__dcross(n, p->u);
-}
+    p.u = fe__dsub(axis, fe__dscale(fe__ddot(axis, n), n));
+    p.u = fe__dscale(1.0 / sqrt(fe__ddot(p.u, p.u)), p.u);
+    p.v = fe__dcross(n, p.u);
 
-static piece piece_of(const fe__drawn *s)
-{
-    piece p = {.normal = fe__drotate(s->pose.rotation, fe__widen(s->form->normal))};
-    const fe_dvec3 reach = {FE__PLANE_REACH, FE__PLANE_REACH, FE__PLANE_REACH};
-    p.normal = fe__dscale(1.0 / sqrt(fe__ddot(p.normal, p.normal)), p.normal);
-    p.nearest = fe__dscale(fe__ddot(p.normal, s->at) + (double)s->form->distance, p.normal);
-    choose_axes(&p);
     p.low = fe__dsub(s->box->low, s->origin), p.high = fe__dsub(s->box->high, s->origin);
     fe_dvec3 middle = clamped(p.nearest, p.low, p.high);
     p.low = clamped(fe__dsub(middle, reach), p.low, p.high);
     p.high = clamped(fe__dadd(middle, reach), p.low, p.high);
-    // a square that reaches beyond the box on all sides
+    // The box cuts a square that reaches beyond it on all sides.
     fe_dvec3 foot = fe__dsub(middle, fe__dscale(fe__ddot(p.normal, fe__dsub(middle, p.nearest)), p.normal));
     double width = 4.0 * FE__PLANE_REACH;
     fe_dvec3 u = fe__dscale(width, p.u), v = fe__dscale(width, p.v);
     p.edge = (polygon){4,
                        {fe__dsub(fe__dsub(foot, u), v), fe__dsub(fe__dadd(foot, u), v), fe__dadd(fe__dadd(foot, u), v),
                         fe__dadd(fe__dsub(foot, u), v)}};
-    for (int32_t axis = 0; axis < 3; ++axis) {
-        p.edge = cut(&p.edge, axis, 1.0, part(p.high, axis));
-        p.edge = cut(&p.edge, axis, -1.0, part(p.low, axis));
+    for (int32_t k = 0; k < 3; ++k) {
+        p.edge = cut(&p.edge, k, 1.0, part(p.high, k));
+        p.edge = cut(&p.edge, k, -1.0, part(p.low, k));
     }
     if (p.edge.count < 3) p.edge.count = 0;
     return p;
 }
 
-void fe__draw_plane(const fe__drawn *s, fe__pen *pen)
+static void draw_plane(const fe__drawn *s, fe__pen *pen)
 {
     piece p = piece_of(s);
     const fe_dvec3 *c = p.edge.corner;
@@ -359,8 +280,7 @@ void fe__draw_plane(const fe__drawn *s, fe__pen *pen)
         fe__pen_triangle(pen, fe__narrow(c[0]), fe__narrow(c[i - 1]), fe__narrow(c[i]));
 }
 
-// ---- the grid ------------------------------------------------------------------------------------------------------
-// Least and greatest coordinate along a unit vector
+// The least and the greatest coordinate along a unit vector.
 static void span(const polygon *p, fe_dvec3 along, double *out_low, double *out_high)
 {
     *out_low = *out_high = fe__ddot(along, p->corner[0]);
@@ -370,38 +290,27 @@ static void span(const polygon *p, fe_dvec3 along, double *out_low, double *out_
     }
 }
 
-// A power of ten, m: 6 to 60 lines
-static double spacing_of(double width)
-{
-    double s = 1.0;
-    while (width > 60.0 * s) s *= 10.0;
-    while (width < 6.0 * s && s > 1e-3) s *= 0.1;
-    return s;
-}
-
-// The chord of the polygon, which is convex, where the coordinate along `across` is x
-static void draw_chord(const polygon *p, fe_dvec3 across, double x, fe__pen *pen)
-{
-    fe_dvec3 end[2];
-    int32_t count = 0;
-    for (int32_t i = 0; i < p->count && count < 2; ++i) {
-        fe_dvec3 a = p->corner[i], b = p->corner[i + 1 < p->count ? i + 1 : 0];
-        double from = fe__ddot(across, a) - x, to = fe__ddot(across, b) - x;
-        if ((from < 0.0) != (to < 0.0)) end[count++] = fe__dadd(a, fe__dscale(from / (from - to), fe__dsub(b, a)));
-    }
-    if (count == 2) fe__pen_line(pen, fe__narrow(end[0]), fe__narrow(end[1]));
-}
-
-// Where the world's coordinate along `across` is a multiple of the spacing
-static void draw_rulings(const piece *p, fe_dvec3 across, fe_dvec3 origin, double spacing, fe__pen *pen)
+// Draws the chords of the polygon, which is convex, on which the world's coordinate along `across` is a multiple of the
+// spacing.
+static void draw_rulings(const polygon *p, fe_dvec3 across, fe_dvec3 origin, double spacing, fe__pen *pen)
 {
     double low, high, zero = fe__ddot(across, origin);
-    span(&p->edge, across, &low, &high);
+    span(p, across, &low, &high);
     int64_t first = (int64_t)((low + zero) / spacing) - 1, last = (int64_t)((high + zero) / spacing) + 1;
-    for (int64_t i = first; i <= last; ++i) draw_chord(&p->edge, across, (double)i * spacing - zero, pen);
+    for (int64_t line = first; line <= last; ++line) {
+        double x = (double)line * spacing - zero;
+        fe_dvec3 end[2];
+        int32_t count = 0;
+        for (int32_t i = 0; i < p->count && count < 2; ++i) {
+            fe_dvec3 a = p->corner[i], b = p->corner[i + 1 < p->count ? i + 1 : 0];
+            double from = fe__ddot(across, a) - x, to = fe__ddot(across, b) - x;
+            if ((from < 0.0) != (to < 0.0)) end[count++] = fe__dadd(a, fe__dscale(from / (from - to), fe__dsub(b, a)));
+        }
+        if (count == 2) fe__pen_line(pen, fe__narrow(end[0]), fe__narrow(end[1]));
+    }
 }
 
-void fe__draw_plane_lines(const fe__drawn *s, fe__pen *pen)
+static void draw_plane_lines(const fe__drawn *s, fe__pen *pen)
 {
     piece p = piece_of(s);
     if (!p.edge.count) return;
@@ -409,13 +318,15 @@ void fe__draw_plane_lines(const fe__drawn *s, fe__pen *pen)
         fe__pen_line(pen, fe__narrow(p.edge.corner[i]), fe__narrow(p.edge.corner[i + 1 < p.edge.count ? i + 1 : 0]));
     double low[2], high[2];
     span(&p.edge, p.u, low, high), span(&p.edge, p.v, low + 1, high + 1);
-    double spacing = spacing_of(fe__maxd(high[0] - low[0], high[1] - low[1]));
-    draw_rulings(&p, p.u, s->origin, spacing, pen);
-    draw_rulings(&p, p.v, s->origin, spacing, pen);
+    // The spacing is a power of ten, m, so that 6 to 60 lines are drawn.
+    double width = fe__maxd(high[0] - low[0], high[1] - low[1]), spacing = 1.0;
+    while (width > 60.0 * spacing) spacing *= 10.0;
+    while (width < 6.0 * spacing && spacing > 1e-3) spacing *= 0.1;
+    draw_rulings(&p.edge, p.u, s->origin, spacing, pen);
+    draw_rulings(&p.edge, p.v, s->origin, spacing, pen);
 }
 
-// ---- as an instance ------------------------------------------------------------------------------------------------
-// The rectangle around the polygon, with x along u, y along the normal, z = x cross y
+// The instance is the rectangle around the polygon, with x along u, y along the normal, z = x cross y.
 int32_t fe__plane_stance(const fe__drawn *s, fe__stance *out)
 {
     piece p = piece_of(s);
@@ -432,13 +343,14 @@ int32_t fe__plane_stance(const fe__drawn *s, fe__stance *out)
     return 1;
 }
 
-// ---- field ----------------------------------------------------------------------------------------------------------
-// Heightfields and meshes, triangle by triangle: of those that are cut, what is near the drawing's box.
+// ---- heightfields and meshes ---------------------------------------------------------------------------------------
+// They are drawn triangle by triangle. If the form does not lie in the drawing's box, only the triangles near the box
+// are drawn.
 
-// The drawing's box in the form's frame: the box around it, whose axes are the form's
+// The box in the form's frame, with the form's axes, around the drawing's box.
 static fe__bounds box_of(const fe__drawn *s)
 {
-    const double far = 1e12; // m, beyond every form
+    const double far = 1e12; // m; every form ends before
     if (!s->is_cut) return (fe__bounds){{-far, -far, -far}, {far, far, far}};
     fe_dvec3 half = fe__dscale(0.5, fe__dsub(s->box->high, s->box->low)),
              middle = fe__dscale(0.5, fe__dadd(s->box->high, s->box->low));
@@ -447,19 +359,13 @@ static fe__bounds box_of(const fe__drawn *s)
     return (fe__bounds){fe__dsub(middle, half), fe__dadd(middle, half)};
 }
 
-// How many there are, unless some are left out
-static int64_t whole_count(const fe__drawn *s)
+static void draw_field(const fe__drawn *s, fe__pen *pen)
 {
     const fe__heightfield *f = s->ground.field;
-    if (s->is_cut) return -1;
-    if (!f) return s->ground.mesh->triangle_count;
-    return f->cells ? -1 : 2 * (int64_t)(f->rows - 1) * (f->columns - 1);
-}
-
-void fe__draw_field(const fe__drawn *s, fe__pen *pen)
-{
-    int64_t whole = whole_count(s);
-    if (whole >= 0 && fe__pen_skips(pen, 3 * whole)) return;
+    if (!s->is_cut && !(f && f->cells)) { // No triangle is left out: their number is known.
+        int64_t count = f ? 2 * (int64_t)(f->rows - 1) * (f->columns - 1) : s->ground.mesh->triangle_count;
+        if (fe__pen_skips(pen, 3 * count)) return;
+    }
     fe__bounds box = box_of(s);
     fe__ground_walk walk;
     fe__form triangle;
@@ -472,32 +378,24 @@ void fe__draw_field(const fe__drawn *s, fe__pen *pen)
     }
 }
 
-// ---- edges: of what is whole each between two triangles once --------------------------------------------------------
-// Of a mesh the neighbour has it the other way round: one of the two goes up, by x, then y, then z. Edges that are
-// open, crowded or wound against each other are drawn by each triangle that has them.
-static int32_t draws_mesh_edge(const fe__mesh *mesh, int32_t slot, int32_t side, const fe_dvec3 *a, const fe_dvec3 *b)
-{
-    fe__mesh_edge edge = fe__mesh_edge_of(mesh, slot, side);
-    if (edge == FE__MESH_EDGE_OPEN || edge == FE__MESH_EDGE_ODD) return 1;
-    return a->x != b->x ? a->x < b->x : a->y != b->y ? a->y < b->y : a->z < b->z;
-}
-
-// Of a heightfield a cell has its diagonal and its sides towards row 0 and column 0, and at a rim the others too
-static int32_t draws_cell_edge(const fe__ground *ground, int32_t triangle, int32_t side)
-{
-    int32_t half = triangle & 1, own = half ? side == 2 : side != 1;
-    return own || fe__ground_is_rim(ground, triangle, side);
-}
-
-// Of what is cut all: the triangle whose edge it would be may be left out
+// An edge between two triangles is drawn once. If the form is cut, each triangle draws all its edges: the other one may
+// be left out.
 static int32_t draws_edge(const fe__drawn *s, int32_t triangle, int32_t side, const fe_dvec3 *a, const fe_dvec3 *b)
 {
     if (s->is_cut) return 1;
-    if (s->ground.mesh) return draws_mesh_edge(s->ground.mesh, triangle, side, a, b);
-    return draws_cell_edge(&s->ground, triangle, side);
+    if (s->ground.mesh) {
+        // Two triangles have the edge in opposite directions: the one in which it goes up, by x, then y, then z, draws
+        // it. Edges that are open, crowded or wound against each other are drawn by each triangle that has them.
+        fe__mesh_edge edge = fe__mesh_edge_of(s->ground.mesh, triangle, side);
+        if (edge == FE__MESH_EDGE_OPEN || edge == FE__MESH_EDGE_ODD) return 1;
+        return a->x != b->x ? a->x < b->x : a->y != b->y ? a->y < b->y : a->z < b->z;
+    }
+    // A cell draws its diagonal and its sides towards row 0 and column 0, and the others if they are a rim.
+    int32_t half = triangle & 1, is_first = half ? side == 2 : side != 1;
+    return is_first || fe__ground_is_rim(&s->ground, triangle, side);
 }
 
-void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen)
+static void draw_field_lines(const fe__drawn *s, fe__pen *pen)
 {
     fe__bounds box = box_of(s);
     fe__ground_walk walk;
@@ -513,3 +411,20 @@ void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen)
         }
     }
 }
+
+// ---- the table of kinds --------------------------------------------------------------------------------------------
+typedef struct draw_traits {
+    void (*triangles)(const fe__drawn *s, fe__pen *pen);
+    void (*lines)(const fe__drawn *s, fe__pen *pen);
+} draw_traits;
+
+static const draw_traits traits[FE__FORM_TYPES] = {
+    [FE__FORM_SPHERE] = {draw_round, draw_round_lines}, [FE__FORM_CAPSULE] = {draw_round, draw_round_lines},
+    [FE__FORM_BOX] = {draw_box, draw_box_lines},        [FE__FORM_CYLINDER] = {draw_round, draw_round_lines},
+    [FE__FORM_CONE] = {draw_round, draw_round_lines},   [FE__FORM_HULL] = {draw_hull, draw_hull_lines},
+    [FE__FORM_PLANE] = {draw_plane, draw_plane_lines},  [FE__FORM_HEIGHTFIELD] = {draw_field, draw_field_lines},
+    [FE__FORM_MESH] = {draw_field, draw_field_lines},
+};
+
+void fe__surface_triangles(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].triangles(s, pen); }
+void fe__surface_lines(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].lines(s, pen); }
