@@ -53,7 +53,7 @@ enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4 };
 static void add_chased(fe__step_scratch *s, fe__body *body, int32_t index)
 {
     body->flags |= FE__BODY_CHASED;
-    s->chased[atomic_fetch_add_explicit(&s->chased_count, 1, memory_order_relaxed)] = index;
+    s->swept[atomic_fetch_add_explicit(&s->swept_count, 1, memory_order_relaxed)] = index;
 }
 
 static void select_block(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -70,7 +70,7 @@ static void select_block(void *argument, int32_t first, int32_t end, int32_t wor
                 w->solver.trail_count[body->line] != FE__NO_TRAIL || fe__path_length(step, index) > body->thickness;
             if (fast && fe__motion_makes_sense(&w->solver, body->line)) add_chased(s, body, index);
         } else if (body->contact_count && fe__path_length(step, index) > 0.0f) {
-            s->chased[s->kinematic_room + atomic_fetch_add_explicit(&s->kinematic_count, 1, memory_order_relaxed)] =
+            s->swept[s->first_kinematic + atomic_fetch_add_explicit(&s->kinematic_count, 1, memory_order_relaxed)] =
                 index;
         }
     }
@@ -101,8 +101,8 @@ static void stop_block(void *argument, int32_t first, int32_t end, int32_t worke
     const fe__step *step = argument;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        fe__limit_energy(step, step->scratch->chased[i]);
-        fe__stop_body(step, step->scratch->chased[i]);
+        fe__limit_energy(step, step->scratch->swept[i]);
+        fe__stop_body(step, step->scratch->swept[i]);
     }
 }
 
@@ -113,8 +113,9 @@ static void bullet_block(void *argument, int32_t first, int32_t end, int32_t wor
     const fe__step *step = argument;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        int32_t body = step->scratch->chased[i];
-        if (is_bullet(step->world, body)) fe__chase_body(step, body, FE__AGAINST_DYNAMIC, step->scratch->chases + i);
+        int32_t body = step->scratch->swept[i];
+        if (is_bullet(step->world, body))
+            fe__sweep_body(step, body, FE__AGAINST_DYNAMIC, step->scratch->sweep_ends + i);
     }
 }
 
@@ -139,25 +140,25 @@ void fe__stop_fast_bodies(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     if (!w->tuning.continuous_enabled) return;
-    atomic_store(&s->chased_count, 0);
+    atomic_store(&s->swept_count, 0);
     atomic_store(&s->kinematic_count, 0);
-    s->kinematic_room = w->awake_body_count;
+    s->first_kinematic = w->awake_body_count;
     fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, select_block, step);
     int32_t kinematic = atomic_load(&s->kinematic_count);
-    for (int32_t i = 0; i < kinematic; ++i) add_partners(step, s->chased[s->kinematic_room + i]);
-    int32_t count = atomic_load(&s->chased_count), bullets = 0;
+    for (int32_t i = 0; i < kinematic; ++i) add_partners(step, s->swept[s->first_kinematic + i]);
+    int32_t count = atomic_load(&s->swept_count), bullets = 0;
     if (count + kinematic == 0) return;
     fe__parallel_for(&w->workers, count, CHASES_IN_BLOCK, stop_block, step);
     fe__rejoin_trees(step);
-    for (int32_t i = 0; i < count; ++i) bullets += is_bullet(w, s->chased[i]);
+    for (int32_t i = 0; i < count; ++i) bullets += is_bullet(w, s->swept[i]);
     if (bullets) fe__parallel_for(&w->workers, count, CHASES_IN_BLOCK, bullet_block, step);
     for (int32_t i = 0; i < count; ++i) {
-        w->bodies[s->chased[i]].flags &= ~(uint32_t)FE__BODY_CHASED;
-        if (is_bullet(w, s->chased[i])) fe__apply_chase(w, s->chased[i], s->chases + i);
+        w->bodies[s->swept[i]].flags &= ~(uint32_t)FE__BODY_CHASED;
+        if (is_bullet(w, s->swept[i])) fe__apply_sweep(w, s->swept[i], s->sweep_ends + i);
     }
     if (!w->trigger_pair_count) return;
-    for (int32_t i = 0; i < count; ++i) cross_triggers(step, s->chased[i]);
-    for (int32_t i = 0; i < kinematic; ++i) cross_triggers(step, s->chased[s->kinematic_room + i]);
+    for (int32_t i = 0; i < count; ++i) cross_triggers(step, s->swept[i]);
+    for (int32_t i = 0; i < kinematic; ++i) cross_triggers(step, s->swept[s->first_kinematic + i]);
 }
 
 // ---- chase ----------------------------------------------------------------------------------------------------------
@@ -250,7 +251,7 @@ static void turn_spin(const fe__motion_line *motion, const fe__shift *end, float
 }
 
 static void write_chase(const fe__step *step, const fe__body *body, const fe__shift *end, int32_t carried,
-                        fe__chase *chase)
+                        fe__sweep_end *chase)
 {
     const fe__solver *s = &step->world->solver;
     chase->motion = s->motion[body->line];
@@ -265,7 +266,7 @@ static void write_chase(const fe__step *step, const fe__body *body, const fe__sh
 }
 
 // Follows a body on its legs until something stands there
-void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__chase *chase)
+void fe__sweep_body(const fe__step *step, int32_t body, int32_t against, fe__sweep_end *chase)
 {
     chase->stopped = 0;
     if (!fe__path_is_blocked(step, body, against)) return;
@@ -286,7 +287,7 @@ void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__cha
 }
 
 // Its motion path is now the straight one.
-void fe__apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
+void fe__apply_sweep(fe_world *w, int32_t body, const fe__sweep_end *chase)
 {
     if (!chase->stopped) return;
     int32_t line = w->bodies[body].line;
@@ -297,9 +298,9 @@ void fe__apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 
 int32_t fe__stop_body(const fe__step *step, int32_t body)
 {
-    fe__chase chase;
-    fe__chase_body(step, body, FE__AGAINST_FIXED, &chase);
-    fe__apply_chase(step->world, body, &chase);
+    fe__sweep_end chase;
+    fe__sweep_body(step, body, FE__AGAINST_FIXED, &chase);
+    fe__apply_sweep(step->world, body, &chase);
     if (chase.stopped && step->world->bodies[body].first_joint) step->world->bodies[body].flags |= FE__BODY_HELD;
     return chase.stopped;
 }

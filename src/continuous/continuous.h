@@ -12,8 +12,8 @@ void fe__stop_fast_bodies(fe__step *step);
 
 // Follows a body on its motion path until something of that sort (FE__AGAINST_*) stands there. On any thread: writes
 // *chase only
-void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__chase *chase);
-void fe__apply_chase(fe_world *world, int32_t body, const fe__chase *chase); // to its line
+void fe__sweep_body(const fe__step *step, int32_t body, int32_t against, fe__sweep_end *chase);
+void fe__apply_sweep(fe_world *world, int32_t body, const fe__sweep_end *chase); // to its line
 // Against what is static or kinematic, both at once. 1: it was stopped
 int32_t fe__stop_body(const fe__step *step, int32_t body);
 

@@ -178,10 +178,10 @@ void fe__rejoin_trees(fe__step *step)
 {
     fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0, count = atomic_load(&s->chased_count); i < count; ++i) {
-        fe__body *body = w->bodies + s->chased[i];
+    for (int32_t i = 0, count = atomic_load(&s->swept_count); i < count; ++i) {
+        fe__body *body = w->bodies + s->swept[i];
         if (!(body->flags & FE__BODY_HELD)) continue;
-        const fe__joint_tree *tree = tree_of_body(w, s->chased[i]);
+        const fe__joint_tree *tree = tree_of_body(w, s->swept[i]);
         if (tree && is_sound(w, tree)) rejoin(step, tree);
         body->flags &= ~(uint32_t)FE__BODY_HELD;
     }

@@ -150,7 +150,7 @@ int32_t fe__find_beside(fe__step *step)
     // as in fe__reserve_step: what is sorted lies where the rows will
     int64_t blocks = 2 * (int64_t)s->buried_count * (int64_t)sizeof(fe__sort_item) / (int64_t)sizeof(fe__row_block);
     if (!FE_RENEW(w->step_memory, w->solver.rows, w->solver.row_capacity, blocks + 1)) return 0;
-    sort_buried(step, fe__sort_room(step));
+    sort_buried(step, fe__sort_scratch(step));
     for (int32_t i = 0; i < s->buried_count; ++i)
         for (int32_t k = i + 1; k <= i + FE__BESIDE && k < s->buried_count; ++k)
             try_pair(step, s->buried[i], s->buried[k]);

@@ -230,7 +230,7 @@ static void box_block(void *argument, int32_t first, int32_t end, int32_t worker
     const fe__step *step = argument;
     (void)worker;
     for (int32_t i = first; i < end; ++i)
-        fe__box_room(step)[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
+        fe__box_scratch(step)[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
 }
 
 void fe__move_bodies(fe__step *step)
@@ -246,7 +246,7 @@ void fe__move_bodies(fe__step *step)
     if (atomic_load(&s->some_leapt)) end_deferrals(w);
     int32_t left = atomic_load(&s->left_count);
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
-    if (left) fe__tree_move(&w->moving_tree, s->left, fe__box_room(step), left);
+    if (left) fe__tree_move(&w->moving_tree, s->left, fe__box_scratch(step), left);
     for (int32_t i = 0; i < left; ++i) fe__shape_mark_moved(w, s->left[i]);
 }
 

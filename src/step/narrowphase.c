@@ -162,7 +162,7 @@ static int32_t look_far_ahead(const fe__step *step, const fe__contact *m, fe__vi
 {
     const fe_world *world = step->world;
     prediction touch;
-    if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), step->dt, &touch.at)) return 0;
+    if (!fe__predict_touch(world, (int32_t)(m - world->contacts), step->dt, &touch.at)) return 0;
     predict_there(step, m, v, step->fall, &touch);
     if (!touch.found.count) return 0;
     *v = touch.v, *at = touch.at, *found = touch.found;

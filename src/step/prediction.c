@@ -37,7 +37,7 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
     return fe__time_of_impact(a, b, limit, impact);
 }
 
-int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt)
+int32_t fe__predicts_meeting(const fe_world *world, int32_t pair, float dt)
 {
     fe__mobile a, b;
     fe__impact impact;
@@ -72,7 +72,7 @@ static fe__bounds way_past(const fe__mobile *surface, const fe__mobile *other)
     return box;
 }
 
-int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt)
+int32_t fe__predicts_field_meeting(const fe_world *world, int32_t pair, float dt)
 {
     const fe__pair *p = world->pairs + pair;
     int32_t a_is_field = fe__form_is_field(&world->shapes[p->shape_a].form);
@@ -122,7 +122,7 @@ static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair,
     return 0;
 }
 
-int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe__places *out_touch)
+int32_t fe__predict_touch(const fe_world *world, int32_t pair, float dt, fe__places *out_touch)
 {
     const fe__pair *p = world->pairs + pair;
     const fe__contact *m = world->contacts + pair;

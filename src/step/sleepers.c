@@ -58,9 +58,9 @@ static int32_t passes_by(const fe__step *step, int32_t pair, int32_t mover)
     if (is_of_now && cannot_close(step, m, mover)) return 1;
     if (fe__is_field_pair(w, w->pairs[pair].shape_a, w->pairs[pair].shape_b)) {
         int32_t lies_under = w->bodies[mover].type == FE_BODY_STATIC && is_of_now && gap_of(w, m) <= 0.0f;
-        return !lies_under && !fe__field_meets_ahead(w, pair, step->dt);
+        return !lies_under && !fe__predicts_field_meeting(w, pair, step->dt);
     }
-    return !fe__pair_meets_ahead(w, pair, step->dt);
+    return !fe__predicts_meeting(w, pair, step->dt);
 }
 
 static int32_t stands(const fe__body *body)
