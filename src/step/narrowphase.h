@@ -100,7 +100,6 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
 // ---- surroundings ---------------------------------------------------------------------------------------------------
 // What static boxes, hulls, meshes and heightfields lie near a body that touches one of them.
 
-int32_t fe__is_static_solid(const fe_world *world, const fe__shape *shape);
 // What lies near `other` beside `self`, in the view's frame; of much the nearest. `centre`: of the other there
 // (fe__form_middle)
 void fe__find_surroundings(const fe_world *world, const fe__view *v, const fe__shape *self, const fe__shape *other,
