@@ -58,7 +58,7 @@ static void find_touching(void *argument, int32_t first, int32_t end, int32_t wo
         fe__pair *p = world->pairs + head;
         fetch_ahead(world, job->pairs, i, end);
         if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_REPORT)) continue;
-        // where the points that were kept hardly hold the load, the next step looks at all patches again
+        // if the points that were kept hardly hold the load, the next step looks at all patches again
         if (p->left_out || p->next_patch >= 0)
             for (int32_t pair = head; pair >= 0; pair = world->pairs[pair].next_patch)
                 if (world->pairs[pair].left_out && fe__load_outgrows(world, pair))
@@ -101,7 +101,7 @@ static int32_t settle_pair(fe__step *step, int32_t pair)
 typedef struct impact {
     float impulse, largest; // sum of the points' impulses, and the largest of them, N s
     float approach;         // the fastest, m/s
-    int32_t pair, point;    // where the impulse is largest: the pair or a patch of it
+    int32_t pair, point;    // place of the largest impulse: the pair or a patch of it
 } impact;
 
 static impact impact_of(const fe_world *world, int32_t head)

@@ -79,7 +79,7 @@ static void queue_meeting(search *s, int32_t other)
 static int32_t visit(void *context, int32_t other)
 {
     search *s = context;
-    // of two moved shapes that both search, the one with the lower index reports
+    // the one with the lower index reports, if both moved and search
     int32_t other_reports =
         other <= s->shape && has_moved(s->scratch, other) && !(s->meets_buried && s->scratch->is_buried[other]);
     if (!other_reports) queue_meeting(s, other);

@@ -130,7 +130,7 @@ enum { SEAM_ID = 0x20000000 };
 typedef struct seam {
     fe__solid solid;
     fe__surroundings around;
-    fe__solid other;    // what touches the solid: any form
+    fe__solid other;    // the form that touches the solid, of any kind
     float margin, fall; // m; see fe__terrain
 } seam;
 
@@ -207,11 +207,11 @@ static void collide_with_face(const seam *s, fe_vec3 f, float sign, fe__manifold
     }
 }
 
-// Of the faces that are open, and not against what was found, takes the one over which the other is highest.
+// Takes the open face over which the other is highest, of those that are not against the direction found.
 static void collide_with_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sign, fe__manifold *found)
 {
     const float level = -0.01f;                            // cosine between face and direction found
-    const float none = -fe__form_thickness(s->other.form); // what is deeper did not come over that face
+    const float none = -fe__form_thickness(s->other.form); // a form that is deeper did not come over that face
     float most = none;
     fe_vec3 best = m;
     for (int32_t i = 0; i < fe__solid_face_count(&s->solid); ++i) {
@@ -327,7 +327,8 @@ static void predict_at(const fe__step *step, const fe__contact *contact, const f
     fe__pose pose_b = a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a)
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
-    out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
+    out->found.axis = -1, out->found.axis_separation = 0.0f,
+    out->found.count = 0; // not zeroed: its points stay unwritten
     const fe__pair_load load = {{fe__tell_pair_load}, world, (int32_t)(contact - world->contacts), at, &out->v};
     out->found.load = fe__load_chooses(&out->v) ? &load.asked : NULL;
     float margin = world->tuning.speculative_distance;
@@ -448,7 +449,7 @@ static void set_points(fe__contact *contact, fe__points *points, const fe__view 
     wide3 arm = w_add(base, turn(&v->rotation, w_xyz(point)));
     arm = (wide3){keep(there, arm.x), keep(there, arm.y), keep(there, arm.z)};
     wide3 arm_b = w_add(arm, span);
-    // of a round side it is the core that rotates
+    // a round side rotates with its core
     wide3 n = spread(fe__quad_vector(contact->normal)),
           core_a = w_add_scaled(arm, w_set(-contact->surface.radius_a), n),
           core_b = w_add_scaled(arm_b, w_set(contact->surface.radius_b), n);
@@ -607,7 +608,7 @@ static int32_t holds(const fe__shape *shape, fe_vec3 outward)
 
 typedef enum sides { HOLDS, UNDECIDED, PASSES } sides;
 
-// What a one-way shape does with the other. Their first meeting decides, by the side; a shape that passes goes on until
+// How a one-way shape takes the other. Their first meeting decides, by the side; a shape that passes goes on until
 // they are apart. What passes a part of a compound passes all parts that it meets in the meantime.
 static sides sides_of(const fe_world *world, int32_t pair, int32_t is_passing, const fe__view *v,
                       const fe__manifold *found)
@@ -620,7 +621,7 @@ static sides sides_of(const fe_world *world, int32_t pair, int32_t is_passing, c
     int32_t passes_part = encounter && encounter->passing;
     fe_vec3 normal = fe__mul(&v->rotation, found->normal); // from v->a to v->b
     if (!passes_part && holds(v->a, normal) && holds(v->b, fe__neg(normal))) return HOLDS;
-    // what other parts hold may yet come to lie on this one
+    // a shape that other parts hold may yet come to lie on this one
     return encounter && encounter->held && !passes_part ? UNDECIDED : PASSES;
 }
 
@@ -643,8 +644,8 @@ static int32_t may_touch_from_afar(const fe__step *step, const fe__pair *p, cons
     return gap <= closing * step->dt + step->fall;
 }
 
-// Where neither one-way shapes nor the filter end it: the distance of the shapes, m, along found's normal or, where
-// that is 0, in any direction. With points a kernel leaves the older axis_separation, so that the gap is measured.
+// The distance of the shapes along found's normal, m, or in any direction if that is 0. With points a kernel leaves the
+// older axis_separation, so that the gap is measured.
 static float gap_of(const fe__view *v, const fe__manifold *found)
 {
     if (!found->count) return found->axis_separation;
@@ -695,7 +696,7 @@ static int32_t collide(const fe__step *step, int32_t pair, fe__apart *out_apart,
         set_view(&v, shape_b, shape_a, &shape_b->pose, &shape_a->pose);
     else
         set_view(&v, shape_a, shape_b, &shape_a->pose, &shape_b->pose);
-    fe__manifold found; // its points stay unwritten
+    fe__manifold found; // not zeroed: its points stay unwritten
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)contact->point_count;
     if (p->axis >= 0) {
         fe_vec3 n = fe__mul_transposed(&v.rotation, fe__quad_vector(contact->normal));

@@ -23,7 +23,7 @@ typedef struct look {
     int32_t count;
 } look;
 
-// What all looks at a pair share.
+// The data that all looks at a pair share
 typedef struct field_pair {
     const fe_world *world;
     int32_t pair;          // the head
@@ -170,10 +170,10 @@ static int32_t advance_to_touch(field_pair *p, const look *now, look *touch)
 
 // ---- records --------------------------------------------------------------------------------------------------------
 
-// What a record will hold
+// A record as it is to be
 typedef struct plan {
     const look *from;
-    const fe__patch *patch; // of that look; NULL: none
+    const fe__patch *patch; // a patch of that look; NULL: none
     int32_t source;         // number of the record that its impulses come from, -1: none
 } plan;
 
@@ -329,7 +329,7 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     fe__mesh_near storage;
     pair.near = gather_triangles(&pair, margin, reach, &storage);
     look now, later;
-    float gap; // without patches
+    float gap; // set if there are no patches
     now.at =
         (fe__places){fe__centre_of(pair.a), fe__centre_of(pair.b), fe__rotation_of(pair.a), fe__rotation_of(pair.b)};
     look_at(&pair, &pair.field->pose, &pair.other->pose, fe__maxf(margin, reach), &gap, &now);

@@ -424,7 +424,7 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *bound)
     fe__step_scratch *scratch = step->scratch;
     fe__memory *memory = world->step_memory, *kept = &world->memory;
     const int64_t pairs = bound->contacts + scratch->sensors; // sensors get no row
-    // What is sorted, and the boxes of shapes that left theirs, lie where the rows do. At least one block, so that an
+    // Items to sort, and the boxes of shapes that left theirs, lie where the rows do. At least one block, so that an
     // empty array has an address too.
     int64_t sorted = fe__maxl(fe__maxl(pairs, scratch->candidate_count), world->body_count);
     sorted += world->owed_count + world->joint_count + world->encounter_count;
@@ -453,8 +453,8 @@ static int32_t reserve_all(fe__step *step)
     fe_world *world = step->world;
     fe__step_scratch *scratch = step->scratch;
     if (!fe__find_joint_trees(world)) return 0;
-    // What parts stays together in the clusters. So they are joined anew, once a bound needs them, when an eighth as
-    // many lanes as there are records of pairs came since: a step that joins n pairs walks 8 n records on average.
+    // Bodies that part stay together in the clusters. So they are joined anew, once a bound needs them, when an eighth
+    // as many lanes as there are records of pairs came since: a step that joins n pairs walks 8 n records on average.
     fe__clusters *clusters = &world->clusters;
     if (clusters->body_count < world->body_capacity ||
         clusters->lane_count - clusters->lanes_when_reset > world->pair_limit / 8)

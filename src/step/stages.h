@@ -81,7 +81,7 @@ typedef struct fe__view {
 
 // Poses of the two bodies for which a manifold is looked for: the solver's A and B.
 typedef struct fe__places {
-    fe_dvec3 centre_a, centre_b; // of mass
+    fe_dvec3 centre_a, centre_b; // centres of mass
     fe_quat rotation_a, rotation_b;
 } fe__places;
 

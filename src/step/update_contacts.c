@@ -18,7 +18,7 @@ enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
 
 typedef struct collide_job {
     fe__step *step;
-    int32_t first; // of this round, in the list of awake pairs
+    int32_t first; // place in the list of awake pairs where this round begins
 } collide_job;
 
 // ---- narrow phase of some pairs -------------------------------------------------------------------------------------
