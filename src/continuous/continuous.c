@@ -35,9 +35,9 @@ enum against { AGAINST_FIXED, AGAINST_DYNAMIC }; // static and kinematic bodies;
 #define FAR 0.001
 
 typedef struct obstacle {
-    double time;     // of the step: when the whole shape touches
+    double time;     // time of the step when the whole shape touches
     fe_dvec3 normal; // unit, from the body to the obstacle; 0: not known
-    fe_dvec3 point;  // where it is touched
+    fe_dvec3 point;  // the point that is touched
     int32_t body;    // -1: nothing is met
 } obstacle;
 
@@ -49,8 +49,8 @@ typedef struct search {
     double begin, end;
     fe__motion motion;
     int32_t has_motion; // 0: it is computed when the first obstacle needs it
-    double s;           // of the first impact so far, in parts of the leg; 1 and more: none
-    uint64_t serial;    // of the shape there
+    double s;           // time of the first impact so far, in parts of the leg; 1 and more: none
+    uint64_t serial;    // serial of the shape there
     obstacle first;
     int32_t blocked; // -1: looks for the first impact; else whether anything may be met at all
 } search;
@@ -208,7 +208,7 @@ static int32_t visit(void *context, int32_t shape)
 static void search_trees(search *s, const fe__bounds *box)
 {
     const fe_world *world = s->step->world;
-    int32_t is_fixed = s->against == AGAINST_FIXED; // of the moving tree, kinematic bodies alone are
+    int32_t is_fixed = s->against == AGAINST_FIXED; // in the moving tree, kinematic bodies alone are
     if (!is_fixed || world->kinematic_count) fe__tree_query(&world->moving_tree, box, visit, s);
     if (!is_fixed || s->blocked > 0) return;
     fe__tree_query(&world->static_tree, box, visit, s);
@@ -227,7 +227,7 @@ static search begin_search(const fe__step *step, int32_t body, int32_t against)
                     .blocked = -1};
 }
 
-// Whether the body's path may meet anything at all: cheap, and yes too often.
+// 1: the body's path may meet something. Cheap, and too often 1.
 static int32_t is_path_blocked(const fe__step *step, int32_t body, int32_t against)
 {
     const fe_world *world = step->world;

@@ -75,8 +75,8 @@ typedef struct fe__view {
     const fe__shape *a, *b; // fe__collide's A and B
     fe__form form_a;        // form of A; a plane's is moved next to B
     fe__relative relative;  // B in the frame of A
-    fe_dvec3 origin;        // of the frame of A, world
-    fe__mat3 rotation;      // of the frame of A, world
+    fe_dvec3 origin;        // A's frame, world
+    fe__mat3 rotation;      // A's frame, world
 } fe__view;
 
 // Poses of the two bodies for which a manifold is looked for: the solver's A and B.

@@ -17,7 +17,7 @@ fe_quat fe__unit_rotation(fe_quat q);               // q unchanged when its leng
 void fe__body_place_centre(fe__body *body);         // centre from origin, rotation and local centre
 void fe__body_place(fe_world *world, int32_t body); // shapes' poses from the body's
 void fe__shape_place(fe_world *world, int32_t shape);
-// Where a body would be at the end of a step of dt seconds without contacts, and a shape of it then
+// The pose of a body at the end of a step of dt seconds without contacts, and a shape of it then
 void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation);
 fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation);
 

@@ -117,7 +117,8 @@ void fe__body_destroy(fe_world *world, int32_t index)
     fe__body_drop_joints(world, index);
     fe__body *body = &world->bodies[index];
     if (body->awake_index >= 0) fe__body_retire(world, index);
-    // without pairs and out of the awake lists nothing is left to disturb: the shapes only have to leave the trees
+    // pairs and places in the awake lists are gone, so that nothing is left to disturb: the shapes only have to leave
+    // the trees
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_leave(world, shape);
         fe__shape_forget(world, shape);

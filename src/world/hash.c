@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-// ---- hash -----------------------------------------------------------------------------------------------------------
+// ---- world ----------------------------------------------------------------------------------------------------------
 
 static void hash_floats(fe__hash *h, const float *a, int count)
 {
@@ -29,7 +29,7 @@ static void hash_body(fe__hash *h, const fe__body *b)
     fe__hash_float(h, b->sleep_timer);
 }
 
-// As if there were no parts, and then the part's number. The number of a patch is above (contact_solver.h)
+// The serial of the whole shape, as if there were no parts, then the part's number. A patch's number is above both.
 static void hash_serial(fe__hash *h, uint64_t serial)
 {
     uint64_t patch = serial >> FE__PATCH_SHIFT << FE__PATCH_SHIFT;
@@ -38,7 +38,7 @@ static void hash_serial(fe__hash *h, uint64_t serial)
     if (part >= 0) fe__hash_i32(h, part);
 }
 
-// contacts have no order of their own: their fingerprints are summed
+// Contacts have no order of their own: their fingerprints are summed.
 uint64_t fe__hash_of_contact(const fe_world *w, int32_t pair)
 {
     const fe__contact *m = w->contacts + pair;
@@ -119,7 +119,7 @@ uint64_t fe__hash_of_impulses(const fe_world *w, int32_t joint)
     return fe__hash_end(&h);
 }
 
-// settings, as they were set, and impulses
+// Settings, as they were given, and impulses
 static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
 {
     const fe__joint_record *r = w->joint_records + joint;
@@ -133,7 +133,7 @@ static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
     hash_impulses(h, w, joint);
 }
 
-// Nothing where there are none
+// A world without joints hashes as if there were no such thing.
 static void hash_joints(fe__hash *h, const fe_world *w)
 {
     for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) hash_joint(h, w, joint);
@@ -171,9 +171,7 @@ uint64_t fe__world_hash(const fe_world *w)
     return fe__hash_end(&h);
 }
 
-// ---- joint hash -----------------------------------------------------------------------------------------------------
-// The settings of a joint as words, for the fingerprint of a world.
-//
+// ---- settings of joints ---------------------------------------------------------------------------------------------
 // The order of these words is that of the first definitions of joints. It is kept apart from the structs of the API, so
 // that a field more there changes no fingerprint of a world that does not use it.
 
@@ -198,7 +196,7 @@ static void put_quat(words *w, fe_quat q)
     put_float(w, q.x), put_float(w, q.y), put_float(w, q.z), put_float(w, q.w);
 }
 
-// Neither bodies nor user data: these are slots, and what is the host's
+// Bodies and user data are left out: the one are slots, the other is the host's.
 static void put_common(words *w, const fe_joint_def *d)
 {
     enum { BODIES_AND_USER_DATA = 6 };

@@ -95,7 +95,7 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
 }
 
-// 1: an older one is
+// 1: an older hinge has the same axis.
 static int32_t is_second_hinge(const fe_world *w, int32_t joint)
 {
     const int32_t *ends = w->joint_records[joint].body;
@@ -111,7 +111,7 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
     return 0;
 }
 
-// no joint lets them move along and about all axes
+// The form of a link, by the translations and rotations that its joint leaves free. Without a joint all are.
 static int32_t form_of(const fe_world *w, int32_t joint)
 {
     const uint32_t rows = joint ? w->joints.joints[joint].rows : 0;
@@ -141,12 +141,12 @@ static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int
 typedef struct component {
     int32_t bodies, edges; // dynamic bodies, joints between them
     int32_t anchors;       // joints to the rest of the world
-    int32_t root, anchor;  // of a tree: the anchored body, or else the first that a spring holds, or the first of all;
-                           // its anchor, 0: none
+    int32_t root;          // the anchored body, or else the first that a spring holds, or the first of all
+    int32_t anchor;        // the joint that anchors the root, 0: none
     int32_t sprung;        // 1: a spring holds the root
 } component;
 
-// of the bodies that may be the root, the one created first
+// Makes a body the root if it was created before the others that may be.
 static void offer_root(const fe_world *w, component *c, int32_t body, int32_t sprung)
 {
     if (c->anchors || sprung < c->sprung) return;
@@ -154,7 +154,7 @@ static void offer_root(const fe_world *w, component *c, int32_t body, int32_t sp
     c->sprung = sprung;
 }
 
-// all bodies that hang together with `body`, marked and written to `links`
+// Marks all bodies that hang together with `body`, and writes them to `links`.
 static component explore(fe_world *w, int32_t body, fe__tree_link *links)
 {
     component c = {.bodies = 1, .root = body};
@@ -183,7 +183,7 @@ static component explore(fe_world *w, int32_t body, fe__tree_link *links)
     return c;
 }
 
-// parents before children, joints of a body in the order of creation
+// Writes the links, parents before children, joints of a body in the order of creation.
 static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
 {
     int32_t count = 1;
@@ -205,14 +205,14 @@ static int32_t is_wheel(const fe_world *w, int32_t joint, int32_t body)
     return !(twist->limit.high < FE__UNLIMITED);
 }
 
-// from which share on the lighter part is too light for what it bears
+// The ratio of masses from which on the lighter part is too light for its load
 static float heavy_on(const fe_world *w, const fe__tree_link *links, const fe__tree_link *l)
 {
     const int32_t above = links[l->parent].body;
     return is_wheel(w, l->joint, l->body) || is_wheel(w, l->joint, above) ? HEAVY_WHEELED : HEAVY_SUPPORT;
 }
 
-// the largest load on a joint, in effective masses of its own, against what is heavy for it
+// The largest load on a joint in its own effective masses, as a share of the load that is heavy for it
 static float heaviest_load(const fe_world *w, const component *c, fe__tree_link *links)
 {
     const int32_t count = c->bodies, held = c->anchors || c->sprung;
@@ -301,7 +301,7 @@ static int32_t is_never_singular(uint32_t locks)
     return rotations == 0 || (rotations == 1 && !(linear & angular)) || (rotations == 3 && !linear);
 }
 
-// nor may bodies be locked in different ways
+// 1: all bodies are locked in the same way, and never singular.
 static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tree_link *links)
 {
     const float locks = w->bodies[links[0].body].lock_bits;
@@ -321,32 +321,20 @@ static int32_t is_only_locked(const fe_world *w, int32_t body)
     return w->bodies[body].lock_bits == 0.0f;
 }
 
-static int32_t is_mechanism(const fe_world *w, const component *c, const fe__tree_link *links)
-{
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (!is_only_locked(w, links[i].body)) return 0;
-    return 1;
-}
-
-static int32_t is_short(const component *c) { return c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE; }
-
-// 1: of ball joints alone
-static int32_t has_balls_alone(const component *c, const fe__tree_link *links)
-{
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (links[i].joint && !(links[i].form & FE__TREE_BALL)) return 0;
-    return 1;
-}
-
-// A heavy tree that hangs on nothing lends its mass to contacts (tree/articulated_mass.inl), which a rope does not
+// A heavy tree that hangs on nothing lends its mass to contacts (tree/articulated_mass.inl), which a rope does not.
 static fe__tree_kind kind_of(const fe_world *w, const component *c, fe__tree_link *links)
 {
-    const int32_t heavy = is_heavy(w, c, links), mechanism = (heavy || is_short(c)) && is_mechanism(w, c, links);
-    if (mechanism && !(heavy && !c->anchors) && has_balls_alone(c, links)) return FE__TREE_ROPE;
+    const int32_t is_short = c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE;
+    int32_t heavy = is_heavy(w, c, links), is_mechanism = heavy || is_short, has_balls_alone = 1;
+    for (int32_t i = 0; i < c->bodies && is_mechanism; ++i) is_mechanism = is_only_locked(w, links[i].body);
+    for (int32_t i = 0; i < c->bodies; ++i)
+        if (links[i].joint && !(links[i].form & FE__TREE_BALL)) has_balls_alone = 0;
+    if (is_mechanism && !(heavy && !c->anchors) && has_balls_alone) return FE__TREE_ROPE;
     if (heavy) return FE__TREE_HEAVY;
-    return mechanism ? FE__TREE_SHORT : FE__TREE_LIGHT;
+    return is_mechanism ? FE__TREE_SHORT : FE__TREE_LIGHT;
 }
 
+// Finds the component of a body, and keeps it if it is a tree that may be solved exactly.
 static void plant(fe_world *w, int32_t body)
 {
     fe__forest *f = &w->joints.forest;
@@ -356,11 +344,6 @@ static void plant(fe_world *w, int32_t body)
     arrange(w, &c, links);
     if (may_be_exact(w, &c, links))
         keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
-}
-
-static void clear_marks(fe_world *w, int32_t joint)
-{
-    for (int k = 0; k < 2; ++k) w->bodies[w->joint_records[joint].body[k]].flags &= ~(uint32_t)FE__BODY_STARTED;
 }
 
 int32_t fe__find_joint_trees(fe_world *w)
@@ -380,7 +363,8 @@ int32_t fe__find_joint_trees(fe_world *w)
         int32_t body = ends[!is_dynamic(w, ends[0])];
         if (!(w->bodies[body].flags & FE__BODY_STARTED)) plant(w, body);
     }
-    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) clear_marks(w, joint);
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next)
+        for (int k = 0; k < 2; ++k) w->bodies[w->joint_records[joint].body[k]].flags &= ~(uint32_t)FE__BODY_STARTED;
     f->changed = 0;
     return 1;
 }

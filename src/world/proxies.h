@@ -17,7 +17,7 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the
 int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra); // 0: no memory
 void fe__shape_enter(fe_world *world, int32_t shape); // into its tree or list, after fe__reserve_proxies
 void fe__shape_leave(fe_world *world, int32_t shape);
-void fe__shape_touch(fe_world *world, int32_t shape);       // its pose or form is new: a new box, new pairs
+void fe__shape_touch(fe_world *world, int32_t shape);       // after a change of pose or form: a new box, new pairs
 void fe__shape_mark_moved(fe_world *world, int32_t shape);  // looks for pairs in the next step
 void fe__body_stretch_boxes(fe_world *world, int32_t body); // renews boxes that no longer hold all that it may reach
 int32_t fe__boxes_part(const fe_world *world, const fe__pair *pair); // 1: they no longer meet

@@ -45,7 +45,7 @@ void fe__body_retire(fe_world *world, int32_t index)
     world->awake_bodies[place] = last;
     world->bodies[last].awake_index = place;
     body->awake_index = body->line = body->island = -1;
-    body->flags &= ~(uint32_t)FE__BODY_BURDENED; // its next step is not the one after this
+    body->flags &= ~(uint32_t)FE__BODY_BURDENED; // the next step that it takes is not the one after this
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) {
         const fe__pair *p = world->pairs + pair;
         int32_t other = p->body_a == index ? p->body_b : p->body_a;

@@ -1,4 +1,4 @@
-// world_memory.h - birth and death of a world.
+// world_memory.h - creation and destruction of a world, its arrays, and the scratch that the stages of a step share.
 #ifndef FE_WORLD_WORLD_MEMORY_H
 #define FE_WORLD_WORLD_MEMORY_H
 #include "core/sort.h"
@@ -17,18 +17,18 @@ void fe__world_free_state(fe_world *world); // all arrays but the solver's and t
 fe_world_tuning fe__default_tuning(void);
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------
-// What of a world is state, as two tables: its arrays, and the members beside them. Whoever frees a world,
-// exchanges two or keeps one walks over these.
+// The state of a world as two tables: its arrays, and the members beside them. Calls that free, exchange or keep worlds
+// walk over these.
 //
-// Not in them is what follows from the state (clusters, forest, graph) and what is no state: memory, workers, who is
-// inside, the host's filter, kernels, the store, scratch, measures.
+// They leave out what follows from the state (clusters, forest, graph) and what is no state: memory, workers, owner,
+// the host's filter, kernels, the store, scratch, measures.
 
-// Where things are in fe_world
+// An array of fe_world, by offsets of its members
 typedef struct fe__array {
-    size_t pointer, capacity; // offsets; the capacity counts elements
-    size_t size;              // of an element, bytes
-    size_t used;              // offset of an int32_t: so many elements may hold something
-    size_t each;              // offset of the int32_t that it is multiplied by, 0: by nothing
+    size_t pointer, capacity; // the capacity counts elements
+    size_t size;              // bytes of an element
+    size_t used;              // an int32_t: so many elements may hold something
+    size_t each;              // the int32_t that it is multiplied by, 0: by nothing
     int32_t more;             // elements beside
 } fe__array;
 typedef struct fe__members {
@@ -37,7 +37,7 @@ typedef struct fe__members {
 
 enum { FE__ARRAYS = 45, FE__MEMBERS = 9 };
 extern const fe__array fe__arrays[FE__ARRAYS];
-// The arrays' addresses and capacities are in these. The last one is what each step moves on
+// The arrays' addresses and capacities are in these members. Each step changes the last one.
 extern const fe__members fe__state_members[FE__MEMBERS];
 
 static inline int32_t fe__int_at(const fe_world *world, size_t offset)
@@ -67,7 +67,7 @@ typedef struct fe__candidate_chunk {
 
 // A crowded body's heap of the pairs that it keeps (step/find_pairs.c)
 typedef struct fe__pair_heap {
-    int32_t shape; // of the body, the one whose box was computed last; -1: none
+    int32_t shape; // the shape of the body whose box was computed last, -1: none
     int32_t capacity, count;
 } fe__pair_heap;
 
@@ -93,14 +93,14 @@ typedef struct fe__step_scratch {
     fe__candidate_chunk chunks[FE_MAX_WORKERS];
     _Atomic int32_t chunks_end;    // end of the last chunk that a worker took
     fe__pair_heap *heaps;          // by crowded body
-    fe__ranked_pair *ranked_pairs; // of each heap, one after the other
+    fe__ranked_pair *ranked_pairs; // by heap, one after the other
     fe__bounds *boxes;             // by shape, those of crowded bodies
     int32_t heap_capacity, ranked_capacity, box_capacity;
 
     // buried.h
     _Atomic int32_t is_crowd; // 1: the search met a shape with very many neighbours
     uint8_t *is_buried;       // by shape
-    int32_t *buried;          // those shapes
+    int32_t *buried;          // indices of the buried shapes
     int32_t is_buried_capacity, buried_capacity, buried_count;
     _Atomic int32_t buried_meetings; // new pairs of two buried shapes, at least so many, each counted twice
 
@@ -114,7 +114,7 @@ typedef struct fe__step_scratch {
     int32_t active_capacity, active_end;
     _Atomic int32_t expired_count, noted_count; // how many of either
     _Atomic int32_t deferred_count;             // pairs that stay deferred
-    _Atomic int32_t apart_count;                // of them, those that the narrow phase found apart
+    _Atomic int32_t apart_count;                // how many of these the narrow phase found apart
     _Atomic int32_t some_deferred;              // 0: no awake pair is
 
     // update_contacts.c
@@ -134,7 +134,7 @@ typedef struct fe__step_scratch {
 
     // continuous.c
     int32_t *swept;            // bodies to sweep: dynamic ones, and kinematic ones from first_kinematic on
-    fe__sweep_end *sweep_ends; // of bullets, by place in that list
+    fe__sweep_end *sweep_ends; // by place in that list, for bullets
     int32_t swept_capacity, sweep_end_capacity;
     int32_t first_kinematic;
     _Atomic int32_t swept_count, kinematic_count;
@@ -145,7 +145,7 @@ typedef struct fe__step {
     fe__step_scratch *scratch;
     float dt;                     // s
     float fall;                   // how far gravity may bring a body towards another one in the step, m
-    fe__step_constants constants; // of islands that are neither strained nor stretched
+    fe__step_constants constants; // the constants of islands that are neither strained nor stretched
     int32_t failed;               // 1: no memory, and nothing was changed
 } fe__step;
 
@@ -170,7 +170,7 @@ void fe__step_scratch_free(fe__step_scratch *scratch, fe__memory *memory); // NU
 
 typedef struct fe__workroom {
     fe__memory *memory;
-    fe__solver solver;                // but for its state, `burdened`, which stays with each world
+    fe__solver solver;                // all but `burdened`, which is state of each world
     struct fe__step_scratch *scratch; // NULL: none yet, or a world has it
 } fe__workroom;
 
