@@ -83,24 +83,6 @@ int32_t fe__uses_asset(const fe_world *world, int32_t asset)
     return 0;
 }
 
-static fe__asset_use *add_use(fe_world *world, int32_t asset)
-{
-    fe__asset_use *use = world->uses + place_of(world, asset);
-    memmove(use + 1, use, (size_t)(world->uses + world->use_count - use) * sizeof *use);
-    world->use_count += 1;
-    *use = (fe__asset_use){asset, -1};
-    fe__asset_retain(world->store, asset);
-    return use;
-}
-
-static void remove_use(fe_world *world, fe__asset_use *use)
-{
-    int32_t asset = use->asset;
-    world->use_count -= 1;
-    memmove(use, use + 1, (size_t)(world->uses + world->use_count - use) * sizeof *use);
-    fe__asset_release(world->store, asset);
-}
-
 int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form)
 {
     int32_t assets = fe__form_has_asset(form);
@@ -124,7 +106,13 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
     int32_t asset = shape->form.field;
     fe__store_lock(world->store);
     fe__asset_use *use = fe__find_asset_use(world, asset);
-    if (!use) use = add_use(world, asset);
+    if (!use) { // the first user of the asset
+        use = world->uses + place_of(world, asset);
+        memmove(use + 1, use, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+        world->use_count += 1;
+        *use = (fe__asset_use){asset, -1};
+        fe__asset_retain(world->store, asset);
+    }
     shape->next_user = use->first_user;
     use->first_user = index;
     shape->form = fe__asset_form(world->store, asset);
@@ -140,7 +128,12 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
     int32_t *at = &use->first_user;
     while (*at != index) at = &world->shapes[*at].next_user;
     *at = shape->next_user;
-    if (use->first_user < 0) remove_use(world, use);
+    if (use->first_user < 0) { // the last user of the asset
+        int32_t asset = use->asset;
+        world->use_count -= 1;
+        memmove(use, use + 1, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+        fe__asset_release(world->store, asset);
+    }
     fe__store_unlock(world->store);
 }
 

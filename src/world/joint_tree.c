@@ -33,27 +33,18 @@
 #define SHORTEST_TREE 2
 #define SHORT_TREE 32
 
-// A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
-static int32_t is_spring(const fe_world *w, const fe__joint *j)
-{
-    return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
-}
-
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits
 static int32_t is_edge(const fe_world *w, int32_t joint)
 {
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    if (j->colour < 0 || is_spring(w, j)) return 0;
+    // a joint with hertz of its own is a spring, unless they are at least those of all rigid joints
+    int32_t is_spring = j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
+    if (j->colour < 0 || is_spring) return 0;
     if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const fe__joint_axis *axis = w->joints.axes[f->axes].axis + FE__AXIS_LINEAR;
     return axis->limit.low == axis->limit.high && axis->limit.hertz == 0.0f;
-}
-
-static int32_t is_beam(const fe_world *w, int32_t joint)
-{
-    return (w->joints.joints[joint].rows & (1u << FE__PART_HINGE | 1u << FE__PART_FIXED)) != 0;
 }
 
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
@@ -205,13 +196,6 @@ static int32_t is_wheel(const fe_world *w, int32_t joint, int32_t body)
     return !(twist->limit.high < FE__UNLIMITED);
 }
 
-// The ratio of masses from which on the lighter part is too light for its load
-static float heavy_on(const fe_world *w, const fe__tree_link *links, const fe__tree_link *l)
-{
-    const int32_t above = links[l->parent].body;
-    return is_wheel(w, l->joint, l->body) || is_wheel(w, l->joint, above) ? HEAVY_WHEELED : HEAVY_SUPPORT;
-}
-
 // The largest load on a joint in its own effective masses, as a share of the load that is heavy for it
 static float heaviest_load(const fe_world *w, const component *c, fe__tree_link *links)
 {
@@ -221,8 +205,10 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     for (int32_t i = count - 1; i > 0; --i) links[links[i].parent].carried += links[i].carried;
     float total = links[0].carried;
     for (int32_t i = 1; i < count && !held; ++i) {
-        float part = fe__minf(links[i].carried, total - links[i].carried);
-        most = fe__maxf(most, (total - part) / (heavy_on(w, links, links + i) * part));
+        const fe__tree_link *l = links + i;
+        int32_t on_wheel = is_wheel(w, l->joint, l->body) || is_wheel(w, l->joint, links[l->parent].body);
+        float part = fe__minf(l->carried, total - l->carried), heavy = on_wheel ? HEAVY_WHEELED : HEAVY_SUPPORT;
+        most = fe__maxf(most, (total - part) / (heavy * part));
     }
     for (int32_t i = 0; i < count; ++i) {
         const fe__tree_link *l = links + i;
@@ -231,7 +217,8 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
         float inverse = w->bodies[l->body].inverse_mass, load = l->carried;
         if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].inverse_mass;
         if (!held) load = l->carried * ((total - l->carried) / total);
-        most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
+        int32_t is_beam = (w->joints.joints[l->joint].rows & (1u << FE__PART_HINGE | 1u << FE__PART_FIXED)) != 0;
+        most = fe__maxf(most, load * inverse / (is_beam ? HEAVY_BEAM : HEAVY_LOAD));
     }
     return most;
 }
@@ -267,14 +254,6 @@ static float levers_of(const fe_world *w, int32_t body)
     return sum;
 }
 
-static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *links)
-{
-    if (heaviest_load(w, c, links) >= 1.0f) return 1;
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (levers_of(w, links[i].body) > HEAVY_LEVERS) return 1;
-    return 0;
-}
-
 static void keep_tree(fe__forest *f, int32_t count, fe__tree_kind kind, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
@@ -301,15 +280,6 @@ static int32_t is_never_singular(uint32_t locks)
     return rotations == 0 || (rotations == 1 && !(linear & angular)) || (rotations == 3 && !linear);
 }
 
-// 1: all bodies are locked in the same way, and never singular.
-static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tree_link *links)
-{
-    const float locks = w->bodies[links[0].body].lock_bits;
-    for (int32_t i = 1; i < c->bodies; ++i)
-        if (w->bodies[links[i].body].lock_bits != locks) return 0;
-    return is_never_singular((uint32_t)locks);
-}
-
 // 1: each joint of the body is a lock of the tree: no limit, spring, motor or second hinge, which the sweep meets
 static int32_t is_only_locked(const fe_world *w, int32_t body)
 {
@@ -325,7 +295,9 @@ static int32_t is_only_locked(const fe_world *w, int32_t body)
 static fe__tree_kind kind_of(const fe_world *w, const component *c, fe__tree_link *links)
 {
     const int32_t is_short = c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE;
-    int32_t heavy = is_heavy(w, c, links), is_mechanism = heavy || is_short, has_balls_alone = 1;
+    int32_t heavy = heaviest_load(w, c, links) >= 1.0f, has_balls_alone = 1;
+    for (int32_t i = 0; i < c->bodies && !heavy; ++i) heavy = levers_of(w, links[i].body) > HEAVY_LEVERS;
+    int32_t is_mechanism = heavy || is_short;
     for (int32_t i = 0; i < c->bodies && is_mechanism; ++i) is_mechanism = is_only_locked(w, links[i].body);
     for (int32_t i = 0; i < c->bodies; ++i)
         if (links[i].joint && !(links[i].form & FE__TREE_BALL)) has_balls_alone = 0;
@@ -342,8 +314,10 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (may_be_exact(w, &c, links))
-        keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
+    const float locks = w->bodies[links[0].body].lock_bits;
+    for (int32_t i = 1; i < c.bodies; ++i)
+        if (w->bodies[links[i].body].lock_bits != locks) return; // bodies that are locked in different ways
+    if (is_never_singular((uint32_t)locks)) keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)locks);
 }
 
 int32_t fe__find_joint_trees(fe_world *w)
