@@ -1,20 +1,12 @@
-// continuous.h - the stage between solver and finalize: motions end where something stood in the way.
+// continuous.h - the stage between solver and finalize: bodies that outran their thickness end at what they met.
 #ifndef FE_CONTINUOUS_CONTINUOUS_H
 #define FE_CONTINUOUS_CONTINUOUS_H
 #include "world/world_memory.h"
 
-// ---- continuous -----------------------------------------------------------------------------------------------------
-
 void fe__stop_fast_bodies(fe__step *step);
 
-// ---- chase ----------------------------------------------------------------------------------------------------------
-// One body that outran its thickness: where it ends.
-
-// Follows a body on its motion path until something of that sort (FE__AGAINST_*) stands there. On any thread: writes
-// *chase only
-void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__chase *chase);
-void fe__apply_chase(fe_world *world, int32_t body, const fe__chase *chase); // to its line
-// Against what is static or kinematic, both at once. 1: it was stopped
+// Sweeps one body against static and kinematic ones, and ends its motion at what it meets. On any thread: writes the
+// body's lines in the solver. 1: it was stopped; a body with joints is FE__BODY_HELD then
 int32_t fe__stop_body(const fe__step *step, int32_t body);
 
 #endif

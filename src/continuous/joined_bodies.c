@@ -1,5 +1,5 @@
-// joined_bodies.c - see joined_bodies.h. A bone that a wall stopped is where the wall is; the others went on without
-// it.
+// joined_bodies.c - re-projection of joints after continuous collision: a bone that a wall stopped is where the wall
+// is, and the others went on without it.
 //
 // Positions only, by sweeps over the joints of the tree, each closed at once by the masses of its two ends (a step of
 // Newton's method on the gap d:  l = -K^-1 d,  dx = l / m,  turn = I^-1 (r x l)): few bodies, once in a while, and a
@@ -18,15 +18,15 @@
 
 enum { MOST_SWEEPS = 32, MOST_ROUNDS = 3 };
 #define REJOINED 5e-4  // m, a tenth of the linear slop
-#define MOST_TURN 0.25 // rad, of an end at once: a gap's change is not linear in it
-#define SINGULAR 1e-9  // share of what can move, for what cannot: locked bodies
+#define MOST_TURN 0.25 // rad, for an end at once: a gap's change is not linear in the turn
+#define SINGULAR 1e-9  // added to the diagonal of K, as a share of its trace: locked bodies give nothing
 
 typedef struct end {
     const fe__body *body;
-    fe__motion_line *motion; // NULL: does not move in this step
+    fe__motion_line *motion; // NULL: the body does not move in this step
     fe_dvec3 arm;            // m, world, now
     double mass[3];          // inverse, along the world's axes, 1/kg; 0: held
-    double turn[3];          // 1: may turn about that axis of the world
+    double turn[3];          // 1: the body may turn about that axis of the world
 } end;
 
 static fe_quat turn_of(const end *e) { return e->motion ? fe__quat_of(e->motion->rotation) : fe__identity(); }
@@ -45,40 +45,40 @@ static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32
     return e;
 }
 
-// of its anchor, m, world
+// The anchor of an end, m, world
 static fe_dvec3 point_of(const end *e)
 {
     fe_dvec3 point = fe__dadd(fe__centre_of(e->body), e->arm);
     return e->motion ? fe__dadd(point, fe__widen(fe__quad_vector(e->motion->shift))) : point;
 }
 
-static fe_dvec3 along(const double *share, fe_dvec3 a)
+static fe_dvec3 scale_axes(const double *share, fe_dvec3 a)
 {
     return (fe_dvec3){share[0] * a.x, share[1] * a.y, share[2] * a.z};
 }
 
-// I^-1 m of a moment about the centre
-static fe_dvec3 turned_by(const end *e, fe_dvec3 moment)
+// I^-1 m for a moment m about the centre
+static fe_dvec3 turn_by(const end *e, fe_dvec3 moment)
 {
     const fe__body *b = e->body;
     fe_quat axes = fe__product(fe__product(turn_of(e), fe__rotation_of(b)), fe__quat_of(b->inertia_axes));
-    fe_dvec3 m = fe__drotate_back(axes, along(e->turn, moment));
+    fe_dvec3 m = fe__drotate_back(axes, scale_axes(e->turn, moment));
     m = (fe_dvec3){m.x / (double)b->inertia[0], m.y / (double)b->inertia[1], m.z / (double)b->inertia[2]};
-    return along(e->turn, fe__drotate(axes, m));
+    return scale_axes(e->turn, fe__drotate(axes, m));
 }
 
-// displacement of the end's point by a push there (N s2): the inverse mass that it shows
+// The displacement of an end's point by a push there (N s2): its inverse effective mass times the push
 static fe_dvec3 response(const end *e, fe_dvec3 push)
 {
     if (e->body->type != FE_BODY_DYNAMIC) return (fe_dvec3){0.0, 0.0, 0.0};
-    return fe__dadd(along(e->mass, push), fe__dcross(turned_by(e, fe__dcross(e->arm, push)), e->arm));
+    return fe__dadd(scale_axes(e->mass, push), fe__dcross(turn_by(e, fe__dcross(e->arm, push)), e->arm));
 }
 
 static void move_end(const fe_world *w, const end *e, fe_dvec3 push)
 {
     if (e->body->type != FE_BODY_DYNAMIC || !e->motion) return;
-    fe__give_back(w, e->body, fe__narrow(along(e->mass, push)), w->solver.velocity[e->body->line].v);
-    fe_dvec3 shift = along(e->mass, push), turn = turned_by(e, fe__dcross(e->arm, push));
+    fe__give_back(w, e->body, fe__narrow(scale_axes(e->mass, push)), w->solver.velocity[e->body->line].v);
+    fe_dvec3 shift = scale_axes(e->mass, push), turn = turn_by(e, fe__dcross(e->arm, push));
     double angle = sqrt(fe__ddot(turn, turn)), half = 0.5 * (angle > MOST_TURN ? MOST_TURN / angle : 1.0);
     fe_quat q = {(float)(half * turn.x), (float)(half * turn.y), (float)(half * turn.z), 1.0f};
     q = fe__normalized(fe__product(q, turn_of(e)));
@@ -116,7 +116,7 @@ static double close_joint(const fe_world *w, int32_t joint, int32_t holds)
     return sqrt(fe__ddot(gap, gap));
 }
 
-// Sweeps until all joints are closed
+// Sweeps until all joints are closed. holds: 1: stopped bodies stay
 static void close_tree(const fe_world *w, const fe__joint_tree *tree, int32_t holds)
 {
     const fe__tree_link *links = w->joints.forest.links + tree->first;
@@ -130,41 +130,26 @@ static void close_tree(const fe_world *w, const fe__joint_tree *tree, int32_t ho
     }
 }
 
-// Those that something bars from where their joints brought them stop too: how many
-static int32_t stop_others(const fe__step *step, const fe__joint_tree *tree)
-{
-    const fe_world *w = step->world;
-    const fe__tree_link *links = w->joints.forest.links + tree->first;
-    int32_t stopped = 0;
-    for (int32_t i = 0; i < tree->count; ++i)
-        if (!(w->bodies[links[i].body].flags & FE__BODY_HELD)) stopped += fe__stop_body(step, links[i].body);
-    return stopped;
-}
-
-// a body that overflowed would take the others along
-static int32_t is_sound(const fe_world *w, const fe__joint_tree *tree)
-{
-    const fe__tree_link *links = w->joints.forest.links + tree->first;
-    for (int32_t i = 0; i < tree->count; ++i)
-        if (!fe__motion_makes_sense(&w->solver, w->bodies[links[i].body].line)) return 0;
-    return 1;
-}
-
 static void rejoin(const fe__step *step, const fe__joint_tree *tree)
 {
     const fe_world *w = step->world;
     const fe__tree_link *links = w->joints.forest.links + tree->first;
+    for (int32_t i = 0; i < tree->count; ++i) // a body that overflowed would take the others along
+        if (!fe__motion_makes_sense(&w->solver, w->bodies[links[i].body].line)) return;
     for (int32_t i = 0; i < tree->count; ++i)
         w->solver.trail_count[w->bodies[links[i].body].line] = FE__NO_TRAIL; // straight motions now
-    for (int32_t round = 0; round < MOST_ROUNDS; ++round) {
+    for (int32_t round = 0, stopped = 1; round < MOST_ROUNDS && stopped; ++round) {
         close_tree(w, tree, 1);
-        if (!stop_others(step, tree)) break;
+        // bodies that meet an obstacle where their joints brought them stop too
+        stopped = 0;
+        for (int32_t i = 0; i < tree->count; ++i)
+            if (!(w->bodies[links[i].body].flags & FE__BODY_HELD)) stopped += fe__stop_body(step, links[i].body);
     }
-    close_tree(w, tree, 0); // what is held at both ends gives way, by as little as can be
+    close_tree(w, tree, 0); // a joint whose ends are both held gives way, by as little as can be
     for (int32_t i = 0; i < tree->count; ++i) w->bodies[links[i].body].flags &= ~(uint32_t)FE__BODY_HELD;
 }
 
-// its tree, NULL: in none
+// The tree that the body's joints are in; NULL: none
 static const fe__joint_tree *tree_of_body(const fe_world *w, int32_t body)
 {
     const fe__forest *f = &w->joints.forest;
@@ -178,11 +163,11 @@ void fe__rejoin_trees(fe__step *step)
 {
     fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0, count = atomic_load(&s->chased_count); i < count; ++i) {
-        fe__body *body = w->bodies + s->chased[i];
+    for (int32_t i = 0, count = atomic_load(&s->swept_count); i < count; ++i) {
+        fe__body *body = w->bodies + s->swept[i];
         if (!(body->flags & FE__BODY_HELD)) continue;
-        const fe__joint_tree *tree = tree_of_body(w, s->chased[i]);
-        if (tree && is_sound(w, tree)) rejoin(step, tree);
+        const fe__joint_tree *tree = tree_of_body(w, s->swept[i]);
+        if (tree) rejoin(step, tree);
         body->flags &= ~(uint32_t)FE__BODY_HELD;
     }
 }

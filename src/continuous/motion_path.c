@@ -1,13 +1,12 @@
-// motion_path.c - see motion_path.h.
+// motion_path.c - see motion_path.h. Input: the lines of motion and trails that the solver left.
 #include "continuous/motion_path.h"
 
 #include "world/body.h"
 #include "world/contact.h"
 
-// ---- motion path ----------------------------------------------------------------------------------------------------
-
 static const fe__shift no_shift = {.rotation = {0.0f, 0.0f, 0.0f, 1.0f}};
 
+// q and -q are the same rotation: returns the one with w >= 0.
 static fe_quat forwards(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
 static fe__shift shift_of(const fe__motion_line *motion)
@@ -39,19 +38,15 @@ fe__shift fe__path_place(const fe__step *step, int32_t body, int32_t leg)
     return shift_of(leg == fe__path_legs(step, body) ? s->motion + line : s->trail[s->trail_of[line]] + leg - 1);
 }
 
-static fe_quat between(fe_quat a, fe_quat b, float t)
-{
-    float side = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0.0f ? -t : t, u = 1.0f - t;
-    return fe__normalized(
-        (fe_quat){u * a.x + side * b.x, u * a.y + side * b.y, u * a.z + side * b.z, u * a.w + side * b.w});
-}
-
 fe__shift fe__shift_between(const fe__shift *a, const fe__shift *b, double t)
 {
     if (t <= 0.0) return *a;
     if (t >= 1.0) return *b;
+    fe_quat p = a->rotation, q = b->rotation;
+    float v = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0.0f ? -(float)t : (float)t, u = 1.0f - (float)t;
+    fe_quat rotation = {u * p.x + v * q.x, u * p.y + v * q.y, u * p.z + v * q.z, u * p.w + v * q.w};
     return (fe__shift){fe__dadd(a->centre, fe__dscale(t, fe__dsub(b->centre, a->centre))),
-                       forwards(between(a->rotation, b->rotation, (float)t))};
+                       forwards(fe__normalized(rotation))};
 }
 
 fe__shift fe__path_at(const fe__step *step, int32_t body, double time)
@@ -89,26 +84,17 @@ fe__mobile fe__mobile_of_shape(const fe__step *step, const fe__shape *shape, con
                         *motion};
 }
 
-// An angle is no more than pi times the sine of its half
-static float length_of(const fe__shift *shift, float reach)
-{
-    const fe_quat q = shift->rotation;
-    return (float)sqrt(fe__ddot(shift->centre, shift->centre)) +
-           FE_PI * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) * reach;
-}
-
 float fe__path_length(const fe__step *step, int32_t body)
 {
     const fe__body *b = step->world->bodies + body;
     if (!moves(b)) return 0.0f;
     fe__shift end = shift_of(step->world->solver.motion + b->line);
-    return length_of(&end, b->reach);
+    fe_quat q = end.rotation;
+    float half_sine = sqrtf(q.x * q.x + q.y * q.y + q.z * q.z); // an angle is no more than pi times it
+    return (float)sqrt(fe__ddot(end.centre, end.centre)) + FE_PI * half_sine * b->reach;
 }
 
 // ---- energy ---------------------------------------------------------------------------------------------------------
-
-// of the energy: what float arithmetic may add in a step
-#define ENERGY_ROUNDING 1e-5f
 
 static float energy_of(const fe__body *b, fe_quat rotation, const float *v, const float *w)
 {
@@ -118,32 +104,24 @@ static float energy_of(const fe__body *b, fe_quat rotation, const float *v, cons
                    b->inertia[1] * spin.y * spin.y + b->inertia[2] * spin.z * spin.z);
 }
 
-static int32_t is_driven(const fe__body *b)
-{
-    for (int32_t k = 0; k < 3; ++k)
-        if (b->force[k] != 0.0f || b->torque[k] != 0.0f) return 1;
-    return b->first_joint != 0;
-}
-
-static int32_t slips(const fe__extra *e)
-{
-    return e->surface_velocity[0] != 0.0f || e->surface_velocity[1] != 0.0f || e->surface_velocity[2] != 0.0f;
-}
-
-// 1: something static pushed it, and nothing else did
+// 1: something static pushed the body, and nothing else did.
 static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
 {
-    int32_t pushed = 0;
-    if (!w->bodies[body].static_pairs) return 0;
-    for (int32_t i = w->bodies[body].first_contact; i >= 0; i = fe__next_pair(w, i, body)) {
-        const fe__pair *p = w->pairs + i;
-        const fe__contact *m = w->contacts + i;
-        if (!(p->flags & FE__PAIR_LINKED)) continue;
-        const fe__extra *e = fe__extra_of(w, m);
-        if (w->bodies[m->body_a].type != FE_BODY_STATIC || (e && slips(e))) return 0;
-        for (int32_t k = 0; k < FE__POINTS; ++k) pushed |= fe__points_of(w, m)->total_impulse[k] > 0.0f;
+    const fe__body *b = w->bodies + body;
+    int32_t is_pushed = 0;
+    for (int32_t k = 0; k < 3; ++k)
+        if (b->force[k] != 0.0f || b->torque[k] != 0.0f) return 0;
+    if (b->first_joint || !b->static_pairs) return 0;
+    for (int32_t i = b->first_contact; i >= 0; i = fe__next_pair(w, i, body)) {
+        const fe__contact *contact = w->contacts + i;
+        if (!(w->pairs[i].flags & FE__PAIR_LINKED)) continue;
+        if (w->bodies[contact->body_a].type != FE_BODY_STATIC) return 0;
+        const fe__extra *extra = fe__extra_of(w, contact);
+        const float *belt = extra ? extra->surface_velocity : NULL;
+        if (belt && (belt[0] != 0.0f || belt[1] != 0.0f || belt[2] != 0.0f)) return 0;
+        for (int32_t k = 0; k < FE__POINTS; ++k) is_pushed |= fe__points_of(w, contact)->total_impulse[k] > 0.0f;
     }
-    return pushed;
+    return is_pushed;
 }
 
 void fe__give_back(const fe_world *w, const fe__body *body, fe_vec3 change, float *velocity)
@@ -158,17 +136,18 @@ void fe__limit_energy(const fe__step *step, int32_t body)
 {
     const fe_world *w = step->world;
     const fe__body *b = w->bodies + body;
-    if (is_driven(b) || !is_pushed_by_static_only(w, body)) return;
+    const float rounding = 1e-5f; // share of the energy that float arithmetic may add in a step
+    if (!is_pushed_by_static_only(w, body)) return;
     fe__velocity_line *velocity = w->solver.velocity + b->line;
     const fe__motion_line *motion = w->solver.motion + b->line;
-    fe_quat before = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
+    fe_quat before = fe__quat_of(b->rotation);
     fe_quat after = fe__product(fe__quat_of(motion->rotation), before);
     float weight = b->mass * b->gravity_scale, h = step->constants.h;
-    // of the discrete fall: v . h g / 2 belongs to the height
+    // the discrete fall is half a substep ahead: v . h g / 2 belongs to the height
     float work = weight * fe__dot(w->gravity, fe__quad_vector(motion->shift));
     work -=
         0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity->v), fe__quad_vector(b->velocity)));
-    float most = energy_of(b, before, b->velocity, b->spin) * (1.0f + ENERGY_ROUNDING) + fe__maxf(work, 0.0f);
+    float most = energy_of(b, before, b->velocity, b->spin) * (1.0f + rounding) + fe__maxf(work, 0.0f);
     float now = energy_of(b, after, velocity->v, velocity->w);
     if (!(now > most)) return;
     float k = sqrtf(most / now);

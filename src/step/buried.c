@@ -1,19 +1,20 @@
-// buried.c - see buried.h.
+// buried.c - finds the shapes that buried.h defines, and the pairs that they have among each other.
 #include "step/buried.h"
 
 #include "world/filter.h"
 #include "world/proxies.h"
 
-// ---- who is --------------------------------------------------------------------------------------------------------
+// ---- search for buried shapes ---------------------------------------------------------------------------------------
+
 typedef struct census {
     const fe_world *world;
-    const uint8_t *is_buried; // by shape, as soon as it is known
-    int32_t shape, met;
+    const uint8_t *is_buried; // by shape; NULL: not known yet
+    int32_t shape, met;       // new pairs that the shape has, FE__BURIED_BY + 1 at most
 } census;
 
-static int32_t may_be_new(const fe_world *w, int32_t shape, int32_t other)
+static int32_t may_be_new(const fe_world *world, int32_t shape, int32_t other)
 {
-    return fe__pair_set_find(&w->pair_set, shape, other) < 0 && fe__may_collide(w, shape, other);
+    return fe__pair_set_find(&world->pair_set, shape, other) < 0 && fe__may_collide(world, shape, other);
 }
 
 static int32_t count_new(void *context, int32_t other)
@@ -26,12 +27,12 @@ static int32_t count_new(void *context, int32_t other)
 static void find_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    const fe_world *w = step->world;
+    const fe_world *world = step->world;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        census c = {w, NULL, i, 0};
-        if (w->shapes[i].flags & FE__SHAPE_IN_TREE && fe__may_be_buried(w, i))
-            fe__tree_query_proxy(&w->moving_tree, &w->moving_tree, i, count_new, &c);
+        census c = {world, NULL, i, 0};
+        if (world->shapes[i].flags & FE__SHAPE_IN_TREE && fe__may_be_buried(world, i))
+            fe__tree_query_proxy(&world->moving_tree, &world->moving_tree, i, count_new, &c);
         step->scratch->is_buried[i] = c.met > FE__BURIED_BY;
     }
 }
@@ -43,42 +44,44 @@ static int32_t count_buried(void *context, int32_t other)
     return c->met <= FE__BURIED_BY;
 }
 
-// Counts how many buried ones each meets, no farther than the search before counted.
+// Counts how many other buried shapes each meets, no farther than the search before counted.
 static void count_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    fe__step_scratch *s = step->scratch;
+    fe__step_scratch *scratch = step->scratch;
     int32_t met = 0;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        census c = {step->world, s->is_buried, s->buried[i], 0};
-        fe__tree_query_proxy(&step->world->moving_tree, &step->world->moving_tree, s->buried[i], count_buried, &c);
+        census c = {step->world, scratch->is_buried, scratch->buried[i], 0};
+        fe__tree_query_proxy(&step->world->moving_tree, &step->world->moving_tree, scratch->buried[i], count_buried,
+                             &c);
         met += c.met;
     }
-    atomic_fetch_add(&s->buried_meetings, met); // of two million shapes at most
+    atomic_fetch_add(&scratch->buried_meetings, met); // no overflow: there are two million shapes at most
 }
 
 int32_t fe__find_buried(fe__step *step)
 {
     enum { SHAPES_IN_BLOCK = 64 };
-    fe_world *w = step->world;
-    fe__step_scratch *s = step->scratch;
-    int32_t shapes = w->shape_ids.slot_count;
-    if (!FE_RENEW(w->step_memory, s->is_buried, s->is_buried_capacity, shapes)) return 0;
-    fe__parallel_for(&w->workers, shapes, SHAPES_IN_BLOCK, find_in_block, step);
+    fe_world *world = step->world;
+    fe__step_scratch *scratch = step->scratch;
+    int32_t shapes = world->shape_ids.slot_count;
+    if (!FE_RENEW(world->step_memory, scratch->is_buried, scratch->is_buried_capacity, shapes)) return 0;
+    fe__parallel_for(&world->workers, shapes, SHAPES_IN_BLOCK, find_in_block, step);
     int32_t count = 0;
-    for (int32_t i = 0; i < shapes; ++i) count += s->is_buried[i];
-    if (!FE_RENEW(w->step_memory, s->buried, s->buried_capacity, count)) return 0;
+    for (int32_t i = 0; i < shapes; ++i) count += scratch->is_buried[i];
+    if (!FE_RENEW(world->step_memory, scratch->buried, scratch->buried_capacity, count)) return 0;
     for (int32_t i = 0; i < shapes; ++i)
-        if (s->is_buried[i]) s->buried[s->buried_count++] = i;
-    fe__parallel_for(&w->workers, s->buried_count, SHAPES_IN_BLOCK, count_in_block, step);
+        if (scratch->is_buried[i]) scratch->buried[scratch->buried_count++] = i;
+    fe__parallel_for(&world->workers, scratch->buried_count, SHAPES_IN_BLOCK, count_in_block, step);
     return 1;
 }
 
-// ---- whom they meet ------------------------------------------------------------------------------------------------
-static fe_dvec3 centre_of(const fe_world *w, int32_t shape)
+// ---- pairs of two buried shapes -------------------------------------------------------------------------------------
+
+static fe_dvec3 centre_of(const fe_world *world, int32_t shape)
 {
-    fe__bounds b = fe__shape_bounds(w, shape, 0.0f);
+    fe__bounds b = fe__shape_bounds(world, shape, 0.0f);
     return fe__dadd(fe__dscale(0.5, b.low), fe__dscale(0.5, b.high));
 }
 
@@ -98,69 +101,58 @@ static uint64_t cell_along(double x, double low, double high)
     return high > low ? spread((uint64_t)((x - low) / (high - low) * last)) : 0;
 }
 
-// Where a point lies on Morton's curve through the box (Morton 1966)
-static uint64_t place_on_curve(fe_dvec3 p, const fe__bounds *box)
+// Sorts the buried shapes along Morton's curve through their centres (Morton 1966), and those in one place by their
+// creation.
+static void sort_buried(const fe__step *step, fe__sort_item *items)
 {
-    return cell_along(p.x, box->low.x, box->high.x) | cell_along(p.y, box->low.y, box->high.y) << 1 |
-           cell_along(p.z, box->low.z, box->high.z) << 2;
-}
-
-static fe__bounds box_of_centres(const fe__step *step)
-{
-    const fe__step_scratch *s = step->scratch;
-    fe__bounds box = {centre_of(step->world, s->buried[0]), centre_of(step->world, s->buried[0])};
-    for (int32_t i = 1; i < s->buried_count; ++i) {
-        fe_dvec3 p = centre_of(step->world, s->buried[i]);
+    const fe_world *world = step->world;
+    fe__step_scratch *scratch = step->scratch;
+    int32_t n = scratch->buried_count, *buried = scratch->buried;
+    fe__bounds box = {centre_of(world, buried[0]), centre_of(world, buried[0])};
+    for (int32_t i = 1; i < n; ++i) {
+        fe_dvec3 p = centre_of(world, buried[i]);
         box.low = (fe_dvec3){fe__mind(box.low.x, p.x), fe__mind(box.low.y, p.y), fe__mind(box.low.z, p.z)};
         box.high = (fe_dvec3){fe__maxd(box.high.x, p.x), fe__maxd(box.high.y, p.y), fe__maxd(box.high.z, p.z)};
     }
-    return box;
-}
-
-// Sorts them along the curve, and those in one place by their creation.
-static void sort_buried(const fe__step *step, fe__sort_item *items)
-{
-    const fe_world *w = step->world;
-    fe__step_scratch *s = step->scratch;
-    int32_t n = s->buried_count;
-    fe__bounds box = box_of_centres(step);
     for (int32_t i = 0; i < n; ++i)
-        items[i] = (fe__sort_item){.key = w->shapes[s->buried[i]].serial, .value = s->buried[i]};
+        items[i] = (fe__sort_item){.key = world->shapes[buried[i]].serial, .value = buried[i]};
     fe__sort_keys(items, n, items + n);
-    for (int32_t i = 0; i < n; ++i) items[i].key = place_on_curve(centre_of(w, items[i].value), &box);
+    for (int32_t i = 0; i < n; ++i) {
+        fe_dvec3 p = centre_of(world, items[i].value);
+        items[i].key = cell_along(p.x, box.low.x, box.high.x) | cell_along(p.y, box.low.y, box.high.y) << 1 |
+                       cell_along(p.z, box.low.z, box.high.z) << 2;
+    }
     fe__sort_keys(items, n, items + n);
-    for (int32_t i = 0; i < n; ++i) s->buried[i] = items[i].value;
-}
-
-static void try_pair(const fe__step *step, int32_t a, int32_t b)
-{
-    const fe_world *w = step->world;
-    fe__step_scratch *s = step->scratch;
-    int32_t moved = (w->shapes[a].flags | w->shapes[b].flags) & FE__SHAPE_MOVED;
-    if (!moved || fe__tree_parts(&w->moving_tree, a, b) || !may_be_new(w, a, b)) return;
-    int32_t first = w->shapes[a].serial < w->shapes[b].serial;
-    s->candidates[s->candidate_count++] = first ? (fe__candidate){a, b} : (fe__candidate){b, a};
+    for (int32_t i = 0; i < n; ++i) buried[i] = items[i].value;
 }
 
 int32_t fe__find_beside(fe__step *step)
 {
-    fe_world *w = step->world;
-    const fe__step_scratch *s = step->scratch;
-    if (!s->buried_count) return 1;
+    fe_world *world = step->world;
+    fe__step_scratch *scratch = step->scratch;
+    const int32_t n = scratch->buried_count, *buried = scratch->buried;
+    if (!n) return 1;
     // as in fe__reserve_step: what is sorted lies where the rows will
-    int64_t blocks = 2 * (int64_t)s->buried_count * (int64_t)sizeof(fe__sort_item) / (int64_t)sizeof(fe__row_block);
-    if (!FE_RENEW(w->step_memory, w->solver.rows, w->solver.row_capacity, blocks + 1)) return 0;
-    sort_buried(step, fe__sort_room(step));
-    for (int32_t i = 0; i < s->buried_count; ++i)
-        for (int32_t k = i + 1; k <= i + FE__BESIDE && k < s->buried_count; ++k)
-            try_pair(step, s->buried[i], s->buried[k]);
+    int64_t blocks = 2 * (int64_t)n * (int64_t)sizeof(fe__sort_item) / (int64_t)sizeof(fe__row_block);
+    if (!FE_RENEW(world->step_memory, world->solver.rows, world->solver.row_capacity, blocks + 1)) return 0;
+    sort_buried(step, fe__sort_scratch(step));
+    for (int32_t i = 0; i < n; ++i) {
+        for (int32_t k = i + 1; k <= i + FE__BESIDE && k < n; ++k) {
+            int32_t a = buried[i], b = buried[k], is_first = world->shapes[a].serial < world->shapes[b].serial;
+            int32_t some_moved = (world->shapes[a].flags | world->shapes[b].flags) & FE__SHAPE_MOVED;
+            if (some_moved && !fe__tree_parts(&world->moving_tree, a, b) && may_be_new(world, a, b))
+                scratch->candidates[scratch->candidate_count++] =
+                    is_first ? (fe__candidate){a, b} : (fe__candidate){b, a};
+        }
+    }
     return 1;
 }
 
 void fe__buried_keep_looking(fe__step *step)
 {
-    fe_world *w = step->world;
-    const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0; i < s->buried_count; ++i)
-        if (w->bodies[w->shapes[s->buried[i]].body].awake_index >= 0) fe__shape_mark_moved(w, s->buried[i]);
+    fe_world *world = step->world;
+    const fe__step_scratch *scratch = step->scratch;
+    for (int32_t i = 0; i < scratch->buried_count; ++i)
+        if (world->bodies[world->shapes[scratch->buried[i]].body].awake_index >= 0)
+            fe__shape_mark_moved(world, scratch->buried[i]);
 }

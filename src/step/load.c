@@ -3,73 +3,48 @@
 
 #include "world/contact.h"
 
-typedef struct line {
-    fe_dvec3 at; // world
-    fe_vec3 along;
-} line;
-
-// Force and torque about the centre of mass are the force alone along a line beside it, at (F x T) / F^2 from it.
-static line line_of_forces(const fe_world *world, const fe__body *body, fe_dvec3 centre)
-{
-    fe_vec3 force = fe__add_scaled(fe__quad_vector(body->force), body->mass * body->gravity_scale, world->gravity);
-    float square = fe__dot(force, force);
-    if (!(square > 0.0f)) return (line){centre, force};
-    fe_vec3 aside = fe__scale(1.0f / square, fe__cross(force, fe__quad_vector(body->torque)));
-    return (line){fe__dadd(centre, fe__widen(aside)), force};
-}
-
-// Of two that move, the one above
-static const fe__body *body_above(const fe_world *world, const fe__body *a, const fe__body *b, const fe__places *at)
-{
-    if (a->type != FE_BODY_DYNAMIC) return b;
-    fe_dvec3 from_a = fe__dsub(at->centre_b, at->centre_a);
-    return fe__ddot(from_a, fe__widen(world->gravity)) > 0.0 ? a : b;
-}
-
-static int32_t most_left_out(const fe_world *world, int32_t head)
-{
-    int32_t most = FE_LEFT_NONE;
-    for (int32_t pair = head; pair >= 0; pair = world->pairs[pair].next_patch)
-        most = fe__maxi(most, world->pairs[pair].left_out);
-    return most;
-}
-
-// None of a pair with several patches that have points
-static fe__choice last_choice(const fe_world *world, int32_t head, int32_t left_out)
-{
-    const fe__contact *m = world->contacts + head;
-    if (!left_out || !m->points) return (fe__choice){.count = 0};
-    for (int32_t pair = world->pairs[head].next_patch; pair >= 0; pair = world->pairs[pair].next_patch)
-        if (world->contacts[pair].point_count > 0.0f) return (fe__choice){.count = 0};
-    return (fe__choice){world->features[m->points].ids, (int32_t)m->point_count, left_out};
-}
-
-fe__load fe__load_on_corners(const fe_world *world, int32_t pair, const fe__places *at, const fe__view *v)
-{
-    const fe__contact *m = world->contacts + pair;
-    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    const fe__body *above = body_above(world, a, b, at);
-    fe_dvec3 centre = above == a ? at->centre_a : at->centre_b;
-    line l = line_of_forces(world, above, centre);
-    int32_t left_out = most_left_out(world, pair);
-    return (fe__load){fe__mul_transposed(&v->rotation, fe__narrow(fe__dsub(l.at, v->origin))),
-                      fe__mul_transposed(&v->rotation, l.along), last_choice(world, pair, left_out)};
-}
-
 fe__load fe__tell_pair_load(const fe__load_asked *asked)
 {
-    const fe__pair_load *l = (const fe__pair_load *)asked;
-    return fe__load_on_corners(l->world, l->pair, l->at, l->v);
+    const fe__pair_load *question = (const fe__pair_load *)asked;
+    const fe_world *world = question->world;
+    const fe__view *v = question->v;
+    const fe__places *at = question->at;
+    const fe__contact *contact = world->contacts + question->pair;
+    const fe__body *a = world->bodies + contact->body_a, *b = world->bodies + contact->body_b;
+    int32_t a_is_above = 0; // gravity would move it towards the other
+    if (a->type == FE_BODY_DYNAMIC)
+        a_is_above = fe__ddot(fe__dsub(at->centre_b, at->centre_a), fe__widen(world->gravity)) > 0.0;
+    const fe__body *above = a_is_above ? a : b;
+
+    // Force and torque about the centre of mass are the force alone along a line beside it, at (F x T) / F^2 from it.
+    fe_vec3 force = fe__add_scaled(fe__quad_vector(above->force), above->mass * above->gravity_scale, world->gravity);
+    fe_dvec3 on_line = a_is_above ? at->centre_a : at->centre_b;
+    float square = fe__dot(force, force);
+    if (square > 0.0f)
+        on_line =
+            fe__dadd(on_line, fe__widen(fe__scale(1.0f / square, fe__cross(force, fe__quad_vector(above->torque)))));
+
+    // several patches with points have no common choice of corners
+    int32_t left_out = FE_LEFT_NONE, has_choice = contact->points != 0;
+    for (int32_t pair = question->pair; pair >= 0; pair = world->pairs[pair].next_patch) {
+        left_out = fe__maxi(left_out, world->pairs[pair].left_out);
+        if (pair != question->pair && world->contacts[pair].point_count > 0.0f) has_choice = 0;
+    }
+    fe__choice last = {.count = 0};
+    if (left_out && has_choice)
+        last = (fe__choice){world->features[contact->points].ids, (int32_t)contact->point_count, left_out};
+    return (fe__load){fe__mul_transposed(&v->rotation, fe__narrow(fe__dsub(on_line, v->origin))),
+                      fe__mul_transposed(&v->rotation, force), last};
 }
 
 int32_t fe__load_outgrows(const fe_world *world, int32_t pair)
 {
-    // Where all but a tenth of the load is borne by two of the points, it lies beyond
-    // FE__FOOT_MOST of the way from the middle of four to the line through the two. `corner`: of what the edge bears
+    // If two of the points bear all but a tenth of the load, it lies beyond FE__FOOT_MOST of the way from the middle
+    // of four to the line through the two. `corner` is a share of what the edge bears.
     const float edge = 0.5f * (1.0f - FE__FOOT_MOST), corner = 0.1f;
-    const fe__contact *m = world->contacts + pair;
-    const float *bears = fe__points_of(world, m)->total_impulse; // 0 behind the last point
-    if (m->point_count < 3.0f) return 0;
+    const fe__contact *contact = world->contacts + pair;
+    const float *bears = fe__points_of(world, contact)->total_impulse; // 0 behind the last point
+    if (contact->point_count < 3.0f) return 0;
     float front = bears[0] + bears[1], others = bears[2] + bears[3],
           least = fe__minf(bears[0], bears[1]) + fe__minf(bears[2], bears[3]);
     float low = fe__minf(front, others), load = front + others;

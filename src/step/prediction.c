@@ -1,4 +1,6 @@
-// prediction.c - see stages.h.
+// prediction.c - the first touch of a pair in the step to come, by times of impact along the motions as they are now.
+//
+// Input: bodies and shapes of a pair. The narrow phase and sleepers.c read the answers (stages.h).
 #include "step/stages.h"
 
 #include "collision/cast/toi.h"
@@ -6,10 +8,7 @@
 #include "world/contact_creation.h"
 #include "world/body.h"
 
-// What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its
-// motion stays the same
-#define SHALLOW 0.25
-
+// A shape and its motion within the step, seen from `base`.
 static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_dvec3 base)
 {
     const fe__shape *s = world->shapes + shape;
@@ -27,6 +26,8 @@ static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_d
                         s->local_rotation, m};
 }
 
+// The first meeting of a pair's shapes until the share `limit` of the step. Motions are seen from a dynamic body's
+// centre.
 static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, double limit, fe__mobile *a, fe__mobile *b,
                               fe__impact *impact)
 {
@@ -37,24 +38,26 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
     return fe__time_of_impact(a, b, limit, impact);
 }
 
-int32_t fe__pair_meets_ahead(const fe_world *world, int32_t pair, float dt)
+int32_t fe__predicts_meeting(const fe_world *world, int32_t pair, float dt)
 {
     fe__mobile a, b;
     fe__impact impact;
     return meeting_of(world, pair, dt, 1.0, &a, &b, &impact) != FE_MEET_NEVER;
 }
 
-// ---- a surface, triangle by triangle -------------------------------------------------------------------------------
-// The origin of a mobile's form, seen from where another is at the time s
+// ---- a surface, triangle by triangle --------------------------------------------------------------------------------
+
+// The origin of the form of `other`, seen from where `from` is at the time s.
 static fe_dvec3 seen_from(const fe__mobile *from, const fe__mobile *other, double s)
 {
     fe__pose here = fe__mobile_at(from, s), there = fe__mobile_at(other, s);
     return fe__drotate_back(here.rotation, fe__dsub(there.position, here.position));
 }
 
-// What holds the other on its way past the surface, in the surface's frame. Seen from what turns by the angle t, a way
-// is bent: from its chord by (t^2 r + 2 t |v|) / 8 at most at a steady turn, r the distance from what it turns about.
-static fe__bounds way_past(const fe__mobile *surface, const fe__mobile *other)
+// Bounds the other on its way past the surface, in the surface's frame. Seen from a surface that turns by the angle t,
+// the way is bent: by (t^2 r + 2 t |v|) / 8 at most from its chord, at a steady turn, where r is the distance from the
+// pivot.
+static fe__bounds bounds_of_way(const fe__mobile *surface, const fe__mobile *other)
 {
     const double bent = 0.5; // four times 1/8: no turn between two rotations is steady
     const fe__motion *m = &surface->motion;
@@ -72,7 +75,7 @@ static fe__bounds way_past(const fe__mobile *surface, const fe__mobile *other)
     return box;
 }
 
-int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt)
+int32_t fe__predicts_field_meeting(const fe_world *world, int32_t pair, float dt)
 {
     const fe__pair *p = world->pairs + pair;
     int32_t a_is_field = fe__form_is_field(&world->shapes[p->shape_a].form);
@@ -80,8 +83,8 @@ int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt)
     fe_dvec3 base = fe__centre_of(world->bodies + world->shapes[other].body);
     fe__mobile surface = mobile_of(world, field, dt, base), b = mobile_of(world, other, dt, base), a = surface;
     fe__ground ground = fe__store_ground(world->store, surface.form);
-    fe__bounds box = way_past(&surface, &b);
-    fe_dvec3 origin = seen_from(&surface, &b, 0.0); // of the triangles, near the other
+    fe__bounds box = bounds_of_way(&surface, &b);
+    fe_dvec3 origin = seen_from(&surface, &b, 0.0); // the origin of triangles, near the other
     a.arm = fe__dadd(surface.arm, fe__drotate(surface.rotation, origin));
     fe__form triangle;
     a.form = &triangle;
@@ -94,18 +97,20 @@ int32_t fe__field_meets_ahead(const fe_world *world, int32_t pair, float dt)
     return 0;
 }
 
-// sine of half the angle until the touch above which a contact says nothing of the bodies as they are now
-#define TURNED 0.25f
+// ---- first touch ----------------------------------------------------------------------------------------------------
 
 static int32_t turns_far(const fe__motion *m, double time)
 {
+    const float most = 0.25f; // sine of half the angle: beyond it a contact says nothing of the bodies as they are now
     fe_quat q = m->angular_displacement;
-    return (float)time * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) > TURNED;
+    return (float)time * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) > most;
 }
 
-// Does a body meet something that does not give way before that time?
+// 1: before that time the body meets something that does not give way, and would go into it by more than a share of its
+// thickness.
 static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair, float dt, double time)
 {
+    const double shallow = 0.25; // share of the thickness
     if (world->bodies[body].type != FE_BODY_DYNAMIC) return 0;
     for (int32_t i = world->bodies[body].first_contact; i >= 0; i = fe__next_pair(world, i, body)) {
         const fe__pair *p = world->pairs + i;
@@ -117,24 +122,24 @@ static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair,
         fe__impact before;
         if (meeting_of(world, i, dt, time, &a, &b, &before) == FE_MEET_NEVER || before.overlap) continue;
         double closing = fe__ddot(before.normal, fe__dsub(a.motion.translation, b.motion.translation));
-        if (closing * (time - before.s) > SHALLOW * (double)world->bodies[body].thickness) return 1;
+        if (closing * (time - before.s) > shallow * (double)world->bodies[body].thickness) return 1;
     }
     return 0;
 }
 
-int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe__places *out_touch)
+int32_t fe__predict_touch(const fe_world *world, int32_t pair, float dt, fe__places *out_touch)
 {
     const fe__pair *p = world->pairs + pair;
-    const fe__contact *m = world->contacts + pair;
+    const fe__contact *contact = world->contacts + pair;
     fe__mobile a, b;
     fe__impact impact;
     if (meeting_of(world, pair, dt, 1.0, &a, &b, &impact) == FE_MEET_NEVER) return 0;
     double time = impact.s;
     if (turns_far(&a.motion, time) || turns_far(&b.motion, time)) return 0;
     if (is_turned_away(world, p->body_a, pair, dt, time) || is_turned_away(world, p->body_b, pair, dt, time)) return 0;
-    int32_t swapped = m->body_a != p->body_a;
+    int32_t swapped = contact->body_a != p->body_a;
     const fe__motion *first = swapped ? &b.motion : &a.motion, *second = swapped ? &a.motion : &b.motion;
-    const fe__body *body_a = world->bodies + m->body_a, *body_b = world->bodies + m->body_b;
+    const fe__body *body_a = world->bodies + contact->body_a, *body_b = world->bodies + contact->body_b;
     *out_touch = (fe__places){fe__dadd(fe__centre_of(body_a), fe__dscale(time, first->translation)),
                               fe__dadd(fe__centre_of(body_b), fe__dscale(time, second->translation)),
                               fe__motion_at(first, time).rotation, fe__motion_at(second, time).rotation};

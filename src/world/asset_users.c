@@ -1,7 +1,7 @@
 // asset_users.c - see asset_users.h.
 //
-// Called by the API layer with checked arguments, between steps. A world's table of uses is read by who edits an asset,
-// on another thread: it is written under the store's lock only.
+// Called by the API layer with checked arguments, between steps. A thread that edits an asset reads the tables of uses
+// of other worlds: they are written under the store's lock only.
 #include "world/asset_users.h"
 
 #include "world/contact.h"
@@ -11,8 +11,9 @@
 
 #include <string.h>
 
-// ---- the store -----------------------------------------------------------------------------------------------------
-// A world that is in the store's list is read by who edits an asset: whatever they read stands before it joins.
+// ---- store ----------------------------------------------------------------------------------------------------------
+
+// Editors of assets read the worlds in the store's list: all that they read is set before the world joins.
 fe_result fe__world_open_store(fe_world *world, const fe_world_def *def, const fe_world *source)
 {
     world->member.world = world;
@@ -51,7 +52,8 @@ void fe__world_close_store(fe_world *world)
     world->store = NULL;
 }
 
-// ---- uses ----------------------------------------------------------------------------------------------------------
+// ---- uses -----------------------------------------------------------------------------------------------------------
+
 // Place of the asset's use in the table, or where it belongs.
 static int32_t place_of(const fe_world *world, int32_t asset)
 {
@@ -81,36 +83,13 @@ int32_t fe__uses_asset(const fe_world *world, int32_t asset)
     return 0;
 }
 
-static fe__asset_use *add_use(fe_world *world, int32_t asset)
-{
-    fe__asset_use *use = world->uses + place_of(world, asset);
-    memmove(use + 1, use, (size_t)(world->uses + world->use_count - use) * sizeof *use);
-    world->use_count += 1;
-    *use = (fe__asset_use){asset, -1};
-    fe__asset_retain(world->store, asset);
-    return use;
-}
-
-static void remove_use(fe_world *world, fe__asset_use *use)
-{
-    int32_t asset = use->asset;
-    world->use_count -= 1;
-    memmove(use, use + 1, (size_t)(world->uses + world->use_count - use) * sizeof *use);
-    fe__asset_release(world->store, asset);
-}
-
-static int32_t assets_of(const fe_world *world, const fe__form *form)
-{
-    int32_t assets = fe__form_has_asset(form);
-    if (!fe__form_is_of_parts(form)) return assets;
-    const fe__compound *compound = &fe__store_asset(world->store, form->field)->compound;
-    for (int32_t i = 0; i < compound->count; ++i) assets += fe__form_has_asset(&compound->parts[i].form);
-    return assets;
-}
-
 int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form)
 {
-    int32_t assets = assets_of(world, form);
+    int32_t assets = fe__form_has_asset(form);
+    if (fe__form_is_of_parts(form)) {
+        const fe__compound *compound = &fe__store_asset(world->store, form->field)->compound;
+        for (int32_t i = 0; i < compound->count; ++i) assets += fe__form_has_asset(&compound->parts[i].form);
+    }
     if (!assets) return 1;
     fe__store_lock(world->store);
     int32_t reserved = FE_RESERVE(&world->memory, world->uses, world->use_capacity, world->use_count + assets);
@@ -127,7 +106,13 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
     int32_t asset = shape->form.field;
     fe__store_lock(world->store);
     fe__asset_use *use = fe__find_asset_use(world, asset);
-    if (!use) use = add_use(world, asset);
+    if (!use) { // the first user of the asset
+        use = world->uses + place_of(world, asset);
+        memmove(use + 1, use, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+        world->use_count += 1;
+        *use = (fe__asset_use){asset, -1};
+        fe__asset_retain(world->store, asset);
+    }
     shape->next_user = use->first_user;
     use->first_user = index;
     shape->form = fe__asset_form(world->store, asset);
@@ -143,12 +128,18 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
     int32_t *at = &use->first_user;
     while (*at != index) at = &world->shapes[*at].next_user;
     *at = shape->next_user;
-    if (use->first_user < 0) remove_use(world, use);
+    if (use->first_user < 0) { // the last user of the asset
+        int32_t asset = use->asset;
+        world->use_count -= 1;
+        memmove(use, use + 1, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+        fe__asset_release(world->store, asset);
+    }
     fe__store_unlock(world->store);
 }
 
-// ---- entering worlds -----------------------------------------------------------------------------------------------
-// As a writer, with no reader inside: queries read the samples.
+// ---- entering worlds ------------------------------------------------------------------------------------------------
+
+// Enters a world as a writer, with no reader inside: queries read the samples.
 static fe_result enter(fe_world *world)
 {
     fe__owner *owner = &world->owner;
@@ -187,7 +178,9 @@ fe_result fe__assets_enter_worlds(fe_store *store, const fe__assets_entered *e)
 
 void fe__assets_leave_worlds(fe_store *store, const fe__assets_entered *e) { leave_until(store, e, NULL); }
 
-// ---- new heights ---------------------------------------------------------------------------------------------------
+// ---- new heights ----------------------------------------------------------------------------------------------------
+
+// 1: the other shape is over that part of the field, or near it.
 static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t other, const fe__bounds *part)
 {
     const fe__shape *shape = world->shapes + other;
@@ -199,7 +192,7 @@ static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t ot
            b.high.z + margin >= part->low.z;
 }
 
-// What touches that part of the shape, or is near it, wakes and looks anew. NULL: all of it
+// Shapes that touch that part of the shape, or are near it, wake and are looked at anew. part: NULL: all of it
 static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
 {
     const fe__shape *field = world->shapes + index;
@@ -209,7 +202,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
         if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
         if (part && !is_over(world, field, other, part)) continue;
-        world->contacts[pair].surface.tolerance = 0.0f; // what moved by nothing has moved too far
+        world->contacts[pair].surface.tolerance = 0.0f; // no motion is small enough to keep the manifold
         if (p->flags & FE__PAIR_LINKED) fe__wake(world, world->shapes[other].body);
         fe__pair_look_once(world, pair);
     }
@@ -236,8 +229,9 @@ void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *par
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_shapes(m->world, asset, &form, &changed);
 }
 
-// ---- new materials -------------------------------------------------------------------------------------------------
-// What touches the shape wakes: it may have to slide, or to stop.
+// ---- new materials --------------------------------------------------------------------------------------------------
+
+// Bodies that touch the shape wake: they may have to slide, or to stop.
 static void renew_materials(fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
@@ -250,21 +244,19 @@ static void renew_materials(fe_world *world, int32_t index)
     fe__shape_material_changed(world, index);
 }
 
-static void renew_users(fe_world *world, int32_t asset)
-{
-    for (int32_t i = 0; i < world->use_count; ++i) {
-        const fe__asset_use *use = world->uses + i;
-        if (fe__store_parent(world->store, use->asset)->index != asset) continue;
-        for (int32_t shape = use->first_user; shape >= 0; shape = world->shapes[shape].next_user)
-            renew_materials(world, shape);
-    }
-}
-
 void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride)
 {
     fe__mesh_write_materials(fe__store_asset(store, asset), materials, stride);
     fe__store_asset(store, asset)->edition = ++store->editions;
-    for (fe__store_member *m = store->first_member; m; m = m->next) renew_users(m->world, asset);
+    for (fe__store_member *m = store->first_member; m; m = m->next) {
+        fe_world *world = m->world;
+        for (int32_t i = 0; i < world->use_count; ++i) {
+            const fe__asset_use *use = world->uses + i;
+            if (fe__store_parent(world->store, use->asset)->index != asset) continue;
+            for (int32_t shape = use->first_user; shape >= 0; shape = world->shapes[shape].next_user)
+                renew_materials(world, shape);
+        }
+    }
 }
 
 void fe__asset_renew(fe_world *world, const fe__asset_use *use)

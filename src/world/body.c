@@ -1,9 +1,7 @@
-// body.c - see solver_body.h.
+// body.c - see body.h.
 #include "world/body.h"
 
 #include <string.h>
-
-// ---- body room ------------------------------------------------------------------------------------------------------
 
 fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
 {
@@ -15,9 +13,9 @@ fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
         !FE_RESERVE(&world->memory, world->drifts, world->drift_capacity, opened + fresh))
         return FE_ERROR_MEMORY;
     int64_t alive = (int64_t)world->body_count + extra;
-    int32_t room = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&
-                   FE_RESERVE(&world->memory, world->disturbed, world->disturbed_capacity, world->body_capacity);
-    return room ? FE_OK : FE_ERROR_MEMORY;
+    int32_t is_done = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&
+                      FE_RESERVE(&world->memory, world->disturbed, world->disturbed_capacity, world->body_capacity);
+    return is_done ? FE_OK : FE_ERROR_MEMORY;
 }
 
 // ---- pose -----------------------------------------------------------------------------------------------------------

@@ -1,34 +1,28 @@
-// body.h - room for the records of bodies.
+// body.h - the records of bodies: memory, pose, speed. The record itself is solver_body.h.
 #ifndef FE_WORLD_BODY_H
 #define FE_WORLD_BODY_H
 #include "world/world.h"
 
 #include <string.h>
 
-// ---- body room ------------------------------------------------------------------------------------------------------
-
 fe_result fe__reserve_bodies(fe_world *world, int32_t extra); // the `extra` creations that follow cannot fail
 
 // ---- pose -----------------------------------------------------------------------------------------------------------
-// Where bodies and their shapes are, and would be.
 
 static inline fe_quat fe__rotation_of(const fe__body *b) { return fe__quat_of(b->rotation); }
-static inline fe_dvec3 fe__centre_of(const fe__body *b)
-{
-    return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]};
-} // of mass
+static inline fe_dvec3 fe__centre_of(const fe__body *b) { return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}; }
 static inline fe_dvec3 fe__origin_of(const fe__body *b) { return (fe_dvec3){b->origin[0], b->origin[1], b->origin[2]}; }
 
-fe_quat fe__unit_rotation(fe_quat q);               // unchanged when its length is 1 already, q/|q| else
+fe_quat fe__unit_rotation(fe_quat q);               // q unchanged when its length is 1 already, else q/|q|
 void fe__body_place_centre(fe__body *body);         // centre from origin, rotation and local centre
 void fe__body_place(fe_world *world, int32_t body); // shapes' poses from the body's
 void fe__shape_place(fe_world *world, int32_t shape);
-// where a body would be at the end of a step of dt seconds without contacts, and a shape of it then
+// The pose of a body at the end of a step of dt seconds without contacts, and a shape of it then
 void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation);
 fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation);
 
 // ---- speed ----------------------------------------------------------------------------------------------------------
-// How fast a body may be: what the narrow phase and continuous collision ask of each.
+// The narrow phase and continuous collision ask how fast a body may be.
 
 static inline float fe__swiftness_of(const fe__body *body)
 {
@@ -43,13 +37,13 @@ static inline void fe__note_swiftness(fe_world *world, float swiftness)
                                                                  memory_order_relaxed)) {}
 }
 
-// After each change of size
+// Called after each change of size.
 static inline void fe__body_note_swiftness(fe_world *world, const fe__body *body)
 {
     fe__note_swiftness(world, fe__swiftness_of(body));
 }
 
-// What the narrow phase asks: how fast the fastest point may be. o: the body's
+// Computes how fast the body's fastest point may be. `o`: the body's odometer
 static inline void fe__note_speed(fe__body *body, fe__odometer *o)
 {
     const float *v = body->velocity, *w = body->spin;
@@ -59,7 +53,7 @@ static inline void fe__note_speed(fe__body *body, fe__odometer *o)
     o->spin = spin;
 }
 
-// After each change of velocity; on any thread
+// Called after each change of velocity, on any thread.
 static inline void fe__body_note_speed(fe_world *world, fe__body *body)
 {
     fe__note_speed(body, world->odometers + (body - world->bodies));

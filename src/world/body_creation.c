@@ -1,4 +1,4 @@
-// body_creation.c - the life of bodies: birth, pose, type, locks, enabling, death.
+// body_creation.c - the life of bodies: creation, pose, type, locks, enabling, destruction.
 //
 // Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were
 // set; the step moves the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in
@@ -66,33 +66,18 @@ static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint
     fe__body_stop_locked(world, body);
 }
 
-static uint32_t initial_flags(const fe_body_def *def)
-{
-    uint32_t flags = 0;
-    if (def->enabled) flags |= FE__BODY_ENABLED;
-    if (def->bullet) flags |= FE__BODY_BULLET;
-    if (def->sleep_allowed) flags |= FE__BODY_SLEEP_ALLOWED;
-    return flags;
-}
-
-// A body that starts asleep starts at rest: sleeping and moving exclude each other.
-static void set_initial_velocities(fe__body *body, const fe_body_def *def)
-{
-    if (body->type == FE_BODY_STATIC || !def->awake) return;
-    fe_vec3 v = def->linear_velocity, w = def->angular_velocity;
-    body->velocity[0] = v.x, body->velocity[1] = v.y, body->velocity[2] = v.z;
-    body->spin[0] = w.x, body->spin[1] = w.y, body->spin[2] = w.z;
-}
-
 int32_t fe__body_create(fe_world *world, const fe_body_def *def)
 {
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__body *body = &world->bodies[index];
-    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
+    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whichever body has it
     memset(body, 0, sizeof *body);
     world->drifts[index] = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}; // equal states have equal bytes
     body->type = def->type;
-    body->flags = initial_flags(def) | listed;
+    body->flags = listed;
+    if (def->enabled) body->flags |= FE__BODY_ENABLED;
+    if (def->bullet) body->flags |= FE__BODY_BULLET;
+    if (def->sleep_allowed) body->flags |= FE__BODY_SLEEP_ALLOWED;
     body->serial = world->next_serial++;
     body->user_data = def->user_data;
     body->line = body->awake_index = body->island = -1;
@@ -102,30 +87,28 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *def)
     body->linear_damping = def->linear_damping;
     body->angular_damping = def->angular_damping;
     set_pose(world, body, &def->transform);
-    set_initial_velocities(body, def);
+    if (body->type != FE_BODY_STATIC && def->awake) { // sleeping and moving exclude each other
+        fe_vec3 v = def->linear_velocity, w = def->angular_velocity;
+        body->velocity[0] = v.x, body->velocity[1] = v.y, body->velocity[2] = v.z;
+        body->spin[0] = w.x, body->spin[1] = w.y, body->spin[2] = w.z;
+    }
     set_lock_bits(world, body, def->linear_locks, def->angular_locks);
     append_to_order(world, index);
     world->has_bullets |= def->bullet;
     fe__body_update_mass(world, index);
     if (def->enabled && def->awake && def->type != FE_BODY_STATIC) {
         fe__body_awaken_alone(world, index);
-        body->flags |= FE__BODY_SEEN_AWAKE; // born awake: no event
+        body->flags |= FE__BODY_SEEN_AWAKE; // created awake: no event
     }
     return index;
 }
 
-// Wakes the neighbours before the pairs go, because it finds them through the pairs.
+// Ends what a body has with others. The neighbours wake before the pairs go, because they are found through the pairs.
 static void part_from_neighbours(fe_world *world, int32_t body)
 {
     fe__wake_neighbours(world, body);
     fe__body_drop_pairs(world, body);
     fe__body_unlink_joints(world, body);
-}
-
-static void meet_neighbours(fe_world *world, int32_t body)
-{
-    fe__body_link_joints(world, body);
-    fe__body_disturb(world, body);
 }
 
 void fe__body_destroy(fe_world *world, int32_t index)
@@ -134,32 +117,35 @@ void fe__body_destroy(fe_world *world, int32_t index)
     fe__body_drop_joints(world, index);
     fe__body *body = &world->bodies[index];
     if (body->awake_index >= 0) fe__body_retire(world, index);
-    // without pairs and out of the awake lists nothing is left to disturb: the shapes only have to leave the trees
+    // pairs and places in the awake lists are gone, so that nothing is left to disturb: the shapes only have to leave
+    // the trees
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_leave(world, shape);
         fe__shape_forget(world, shape);
     }
-    // the slot's next body must not inherit whom this one ignored
+    // the slot's next body must not inherit the list of ignored bodies
     fe__body_ignore_none(world, index);
     remove_from_order(world, index);
     fe__id_pool_release(&world->body_ids, index);
 }
 
-static void enter_shapes(fe_world *world, int32_t body)
+// Takes a body out of the awake lists, and its shapes out of the trees.
+static void leave_world(fe_world *world, int32_t index)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
-        fe__shape_enter(world, shape);
-}
-
-static void leave_shapes(fe_world *world, int32_t body)
-{
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+    fe__body *body = &world->bodies[index];
+    part_from_neighbours(world, index);
+    if (body->awake_index >= 0) fe__body_retire(world, index);
+    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next)
         fe__shape_leave(world, shape);
+    for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
 }
 
-static void forget_forces(fe__body *body)
+static void enter_world(fe_world *world, int32_t index)
 {
-    for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_enter(world, shape);
+    fe__body_link_joints(world, index);
+    fe__body_disturb(world, index);
 }
 
 // The pairs end (with their exits) and are found anew in the next step: what a pair may be depends on the types.
@@ -169,14 +155,11 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     if (body->type == type) return FE_OK;
     if (!fe__reserve_proxies(world, type, body->shape_count)) return FE_ERROR_MEMORY;
 
-    part_from_neighbours(world, index);
-    if (body->awake_index >= 0) fe__body_retire(world, index);
-    leave_shapes(world, index);
+    leave_world(world, index);
     world->static_count += (type == FE_BODY_STATIC) - (body->type == FE_BODY_STATIC);
     world->kinematic_count += (type == FE_BODY_KINEMATIC) - (body->type == FE_BODY_KINEMATIC);
     body->type = type;
     body->sleep_timer = 0.0f;
-    forget_forces(body);
     if (type == FE_BODY_STATIC) {
         for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = 0.0f;
         fe__body_note_speed(world, body);
@@ -184,8 +167,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     if (type != FE_BODY_DYNAMIC) body->flags &= ~(uint32_t)FE__BODY_MASS_GIVEN;
     fe__body_update_mass(world, index);
     if (!(body->flags & FE__BODY_ENABLED)) return FE_OK;
-    enter_shapes(world, index);
-    meet_neighbours(world, index);
+    enter_world(world, index);
     return FE_OK;
 }
 
@@ -194,10 +176,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     fe__body *body = &world->bodies[index];
     if (enabled == ((body->flags & FE__BODY_ENABLED) != 0)) return FE_OK;
     if (!enabled) {
-        part_from_neighbours(world, index);
-        if (body->awake_index >= 0) fe__body_retire(world, index);
-        leave_shapes(world, index);
-        forget_forces(body);
+        leave_world(world, index);
         body->flags &= ~(uint32_t)FE__BODY_ENABLED;
         fe__body_link_joints(world, index); // none of them acts now
         return FE_OK;
@@ -206,8 +185,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     body->flags |= FE__BODY_ENABLED;
     fe__body_note_swiftness(world, body); // no step looked at it meanwhile
     body->sleep_timer = 0.0f;
-    enter_shapes(world, index);
-    meet_neighbours(world, index);
+    enter_world(world, index);
     return FE_OK;
 }
 
@@ -237,5 +215,5 @@ void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_
     fe__body_link_joints(world, index);
     // locked bodies' contacts go to rows of another kind
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
-        if (world->shapes[shape].parent < 0) fe__shape_material_changed(world, shape); // of its parts, too
+        if (world->shapes[shape].parent < 0) fe__shape_material_changed(world, shape); // also for its parts
 }

@@ -1,6 +1,6 @@
 // body_creation.h - the life of bodies.
 //
-// What cannot fail returns void; otherwise FE_OK or the reason, with nothing changed.
+// Calls that cannot fail return void; the others FE_OK or the reason, with nothing changed.
 #ifndef FE_WORLD_BODY_CREATION_H
 #define FE_WORLD_BODY_CREATION_H
 #include "world/body.h"

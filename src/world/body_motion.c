@@ -1,22 +1,13 @@
 // body_motion.c - velocities, forces and impulses given between steps.
 //
-// Called by the API layer. What it writes, the next step's solver reads: forces act during all of that step and are
-// cleared by it.
+// Called by the API layer. The next step's solver reads the results: forces act during all of that step, which clears
+// them.
 #include "world/body_motion.h"
 
 #include "core/math.h"
 #include "world/body.h"
 #include "world/proxies.h"
 #include "world/sleep.h"
-
-// m/s2, rad/s2: what a step of 1 s makes of it can still be squared in a float
-#define MOST_ACCELERATION 1e9f
-
-static int32_t moves(const fe__body *body)
-{
-    return body->velocity[0] != 0.0f || body->velocity[1] != 0.0f || body->velocity[2] != 0.0f ||
-           body->spin[0] != 0.0f || body->spin[1] != 0.0f || body->spin[2] != 0.0f;
-}
 
 void fe__body_set_velocity(fe_world *world, int32_t index, const fe_vec3 *linear, const fe_vec3 *angular)
 {
@@ -25,20 +16,23 @@ void fe__body_set_velocity(fe_world *world, int32_t index, const fe_vec3 *linear
     if (angular) body->spin[0] = angular->x, body->spin[1] = angular->y, body->spin[2] = angular->z;
     for (int k = 0; k < 3 && angular; ++k) body->relaxed[k] = 0.0f;
     fe__body_stop_locked(world, body);
-    if (moves(body)) fe__body_disturb(world, index);
+    int32_t moves = 0;
+    for (int k = 0; k < 3; ++k) moves |= body->velocity[k] != 0.0f || body->spin[k] != 0.0f;
+    if (moves) fe__body_disturb(world, index);
     fe__body_stretch_boxes(world, index);
 }
 
 void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 torque)
 {
+    const float most = 1e9f; // m/s2, rad/s2: the velocity after a step of 1 s can still be squared in a float
     fe__body *body = &world->bodies[index];
     float f[3] = {force.x, force.y, force.z}, t[3] = {torque.x, torque.y, torque.z};
     int32_t any = 0;
     for (int k = 0; k < 3; ++k) any |= f[k] != 0.0f || t[k] != 0.0f;
     if (!any) return;
     fe__body_disturb(world, index);
-    float most_force = MOST_ACCELERATION * body->mass;
-    float most_torque = MOST_ACCELERATION * fe__minf(fe__minf(body->inertia[0], body->inertia[1]), body->inertia[2]);
+    float most_force = most * body->mass;
+    float most_torque = most * fe__minf(fe__minf(body->inertia[0], body->inertia[1]), body->inertia[2]);
     for (int k = 0; k < 3; ++k) {
         body->force[k] = fe__clampf(body->force[k] + f[k], -most_force, most_force);
         body->torque[k] = fe__clampf(body->torque[k] + t[k], -most_torque, most_torque);
@@ -63,7 +57,7 @@ void fe__body_world_inertia(const fe__body *body, double inertia[3][3])
 }
 
 // Solves I w = L by Cramer's rule. A locked axis keeps its w at 0: its row and column become those of the unit matrix
-// (scaled like the rest), its L 0; what is left is the inertia of a body on the free axes.
+// (scaled like the rest), its L 0; the inertia over the free axes is left.
 fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
 {
     double m[3][3], l[3] = {(double)angular_impulse.x, (double)angular_impulse.y, (double)angular_impulse.z};
@@ -84,8 +78,8 @@ fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
                      (float)(fe__ddot(a, fe__dcross(b, right)) / determinant)};
 }
 
-// The rotation is to * from^-1 = (u sin(angle / 2), cos(angle / 2)); of q and -q, which are the same, the one with cos
-// >= 0 is the shorter.
+// The rotation is to * from^-1 = (u sin(angle / 2), cos(angle / 2)). q and -q are the same rotation; the one with a
+// cosine >= 0 is the shorter way.
 fe_vec3 fe__spin_between(fe_quat from, fe_quat to, double seconds)
 {
     double fx = -(double)from.x, fy = -(double)from.y, fz = -(double)from.z, fw = (double)from.w;

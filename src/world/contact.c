@@ -1,12 +1,10 @@
-// contact.c - see contact_solver.h.
+// contact.c - see contact.h.
 #include "world/contact.h"
 
 #include <assert.h>
 
-// ---- pair list ------------------------------------------------------------------------------------------------------
+// ---- lists ----------------------------------------------------------------------------------------------------------
 
-// ---- of a body -----------------------------------------------------------------------------------------------------
-// ---- lists ---------------------------------------------------------------------------------------------------------
 static fe__link *link_of(fe_world *world, int32_t pair, int32_t body)
 {
     return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1];
@@ -31,7 +29,6 @@ void fe__pair_remove_from_list(fe_world *world, int32_t pair, int32_t index)
     if (link.next >= 0) link_of(world, link.next, index)->previous = link.previous;
 }
 
-// ---- of the awake --------------------------------------------------------------------------------------------------
 void fe__pair_awaken(fe_world *world, int32_t pair)
 {
     if (world->pairs[pair].awake_index >= 0) return;
@@ -65,22 +62,16 @@ void fe__pair_look_once(fe_world *world, int32_t pair)
     end_deferral(world, pair);
 }
 
-// Without points: a gap was measured from the centre as it was
 void fe__body_end_deferrals(fe_world *world, int32_t body)
 {
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         end_deferral(world, pair);
+        // a pair without points measured its gap from the centre as it was
         if (!(world->contacts[pair].point_count > 0.0f)) world->contacts[pair].surface.tolerance = 0.0f;
     }
 }
 
-// ---- pair mix -------------------------------------------------------------------------------------------------------
-
-// ---- materials -----------------------------------------------------------------------------------------------------
-static float form_radius(const fe__shape *a, const fe__shape *b)
-{
-    return fe__maxf(fe__form_roundness(&a->form), fe__form_roundness(&b->form));
-}
+// ---- mixed materials ------------------------------------------------------------------------------------------------
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {
@@ -116,79 +107,73 @@ static float mix(int32_t combine, float a, float b)
     }
 }
 
-// A product of two large frictions stays within what one material may have
-#define MOST_FRICTION 1e6f
 static float mix_friction(int32_t combine, float a, float b)
 {
-    return combine == FE_COMBINE_DEFAULT ? sqrtf(a * b) : fe__minf(mix(combine, a, b), MOST_FRICTION);
+    const float most = 1e6f; // a product of two large frictions stays within what one material may have
+    return combine == FE_COMBINE_DEFAULT ? sqrtf(a * b) : fe__minf(mix(combine, a, b), most);
 }
-static float mix_restitution(int32_t combine, float a, float b) { return mix(combine, a, b); }
 
-// velocity of a shape's surface, world axes
-static fe_vec3 surface_of(const fe__shape *shape) { return fe__rotate(shape->pose.rotation, shape->surface_velocity); }
+// Velocity of a shape's surface, world axes
+static fe_vec3 surface_velocity_of(const fe__shape *shape)
+{
+    return fe__rotate(shape->pose.rotation, shape->surface_velocity);
+}
 
 void fe__pair_mix_surface(fe_world *world, int32_t pair)
 {
     const fe__pair *p = world->pairs + pair;
-    fe__contact *m = world->contacts + pair;
-    fe__extra *e = fe__extra_of(world, m);
+    fe__contact *contact = world->contacts + pair;
+    fe__extra *extra = fe__extra_of(world, contact);
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
     const fe_material *x = fe__shape_material(world, a, p->triangle), *y = fe__shape_material(world, b, p->triangle);
     int32_t friction = fe__maxi(x->friction_combine, y->friction_combine);
-    m->static_friction = mix_friction(friction, x->static_friction, y->static_friction);
-    m->surface.dynamic_friction = mix_friction(friction, x->dynamic_friction, y->dynamic_friction);
-    if (!e) return;
-    fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
-    if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
-    e->restitution =
-        mix_restitution(fe__maxi(x->restitution_combine, y->restitution_combine), x->restitution, y->restitution);
-    e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
-    e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
-    e->surface_velocity[0] = surface.x, e->surface_velocity[1] = surface.y, e->surface_velocity[2] = surface.z;
+    contact->static_friction = mix_friction(friction, x->static_friction, y->static_friction);
+    contact->surface.dynamic_friction = mix_friction(friction, x->dynamic_friction, y->dynamic_friction);
+    if (!extra) return;
+    fe_vec3 velocity = fe__sub(surface_velocity_of(b), surface_velocity_of(a));
+    if (p->flags & FE__PAIR_FLIPPED) velocity = fe__neg(velocity);
+    float radius = fe__maxf(fe__form_roundness(&a->form), fe__form_roundness(&b->form));
+    int32_t restitution = fe__maxi(x->restitution_combine, y->restitution_combine);
+    extra->restitution = mix(restitution, x->restitution, y->restitution);
+    extra->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * radius;
+    extra->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
+    extra->surface_velocity[0] = velocity.x, extra->surface_velocity[1] = velocity.y,
+    extra->surface_velocity[2] = velocity.z;
 }
 
 void fe__pair_mix(fe_world *world, int32_t pair)
 {
     fe__pair *p = world->pairs + pair;
-    fe__contact *m = world->contacts + pair;
+    fe__contact *contact = world->contacts + pair;
     if (p->next_patch >= 0) fe__pair_mix(world, p->next_patch);
     p->events = (uint8_t)(world->shapes[p->shape_a].events | world->shapes[p->shape_b].events);
     world->wants_hits |= (p->events & FE_SHAPE_EVENTS_HIT) != 0;
     int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
     world->row_kinds |= 1u << kind;
-    if (kind != m->kind && m->colour >= 0) world->solver.graph_changed = 1, ++world->solver.unbuilt;
-    m->kind = kind;
+    if (kind != contact->kind && contact->colour >= 0) world->solver.graph_changed = 1, ++world->solver.unbuilt;
+    contact->kind = kind;
     fe__pair_mix_surface(world, pair);
 }
 
 // ---- points ---------------------------------------------------------------------------------------------------------
 
-static int32_t grow_order(fe_world *world, int64_t need)
-{
-    int32_t known = world->point_order_capacity;
-    if (!FE_RESERVE(&world->memory, world->point_order, world->point_order_capacity, need)) return 0;
-    for (int32_t i = known; i < world->point_order_capacity; ++i) world->point_order[i] = i;
-    return 1;
-}
-
-// The first special row of a world: its extras are mixed before any is read
-static int32_t grow_extras(fe_world *world, int64_t need)
-{
-    int32_t known = world->extra_capacity;
-    if (!FE_RESERVE(&world->memory, world->extras, world->extra_capacity, need)) return 0;
-    for (int32_t i = 1; i < world->pair_limit && !known; ++i)
-        if (!(world->pairs[i].flags & FE__PAIR_FREE)) fe__pair_mix_surface(world, i);
-    return 1;
-}
-
 int32_t fe__points_reserve(fe_world *world, int64_t more, int32_t with_extras)
 {
     fe__memory *memory = &world->memory;
     int64_t need = atomic_load(&world->point_count) + more;
-    return FE_RESERVE(memory, world->points, world->point_capacity, need) &&
-           FE_RESERVE(memory, world->features, world->feature_capacity, need) &&
-           FE_RESERVE(memory, world->point_serials, world->point_serial_capacity, 2 * need) &&
-           grow_order(world, need) && (!with_extras || grow_extras(world, world->point_capacity));
+    int32_t ordered = world->point_order_capacity, had_extras = world->extra_capacity > 0;
+    if (!FE_RESERVE(memory, world->points, world->point_capacity, need) ||
+        !FE_RESERVE(memory, world->features, world->feature_capacity, need) ||
+        !FE_RESERVE(memory, world->point_serials, world->point_serial_capacity, 2 * need) ||
+        !FE_RESERVE(memory, world->point_order, world->point_order_capacity, need))
+        return 0;
+    for (int32_t i = ordered; i < world->point_order_capacity; ++i) world->point_order[i] = i;
+    if (!with_extras) return 1;
+    if (!FE_RESERVE(memory, world->extras, world->extra_capacity, world->point_capacity)) return 0;
+    // the first special row of a world: all extras are mixed before any is read
+    for (int32_t i = 1; i < world->pair_limit && !had_extras; ++i)
+        if (!(world->pairs[i].flags & FE__PAIR_FREE)) fe__pair_mix_surface(world, i);
+    return 1;
 }
 
 void fe__points_take(fe_world *world, int32_t pair)
@@ -207,11 +192,11 @@ void fe__points_take(fe_world *world, int32_t pair)
 
 void fe__points_release(fe_world *world, int32_t pair)
 {
-    fe__contact *m = world->contacts + pair;
-    if (!m->points) return;
+    fe__contact *contact = world->contacts + pair;
+    if (!contact->points) return;
     int32_t last = atomic_load_explicit(&world->point_count, memory_order_relaxed) - 1;
     atomic_store_explicit(&world->point_count, last, memory_order_relaxed);
-    world->point_order[last] = m->points;
-    m->points = 0;
+    world->point_order[last] = contact->points;
+    contact->points = 0;
     world->pairs[pair].left_out = 0;
 }

@@ -1,4 +1,8 @@
-// contact_creation.c - the life of pairs: birth, and death with the exit it owes.
+// contact_creation.c - the life of pairs: they are created and destroyed, linked into the constraint graph and
+// unlinked.
+//
+// Called by the step's stages, and between steps by changes of bodies and shapes. A pair that ends while it touches
+// owes an exit event, which the next step reports.
 #include "world/contact_creation.h"
 
 #include "collision/manifold/collide.h"
@@ -10,7 +14,7 @@
 
 #include <string.h>
 
-// ---- pairs ----------------------------------------------------------------------------------------------------------
+// ---- creation -------------------------------------------------------------------------------------------------------
 
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
 {
@@ -23,115 +27,89 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
            fe__pair_set_reserve(&world->pair_set, memory, extra) && fe__reserve_encounters(world, extra);
 }
 
-static int32_t is_with_static(const fe_world *world, int32_t pair)
-{
-    const fe__pair *p = world->pairs + pair;
-    return world->bodies[p->body_a].type == FE_BODY_STATIC || world->bodies[p->body_b].type == FE_BODY_STATIC;
-}
-
-// Contacts count as many as the pair may have
-static void add_to_body(fe_world *world, int32_t pair, int32_t index)
+// Enters or leaves the list of a body. `sign`: 1 or -1
+static void count_at_body(fe_world *world, int32_t pair, int32_t index, int32_t sign)
 {
     fe__body *body = world->bodies + index;
-    fe__pair_add_to_list(world, pair, index);
-    body->contact_count += world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
-    body->static_pairs += is_with_static(world, pair);
+    const fe__pair *p = world->pairs + pair;
+    int32_t is_with_static =
+        world->bodies[p->body_a].type == FE_BODY_STATIC || world->bodies[p->body_b].type == FE_BODY_STATIC;
+    if (sign > 0)
+        fe__pair_add_to_list(world, pair, index);
+    else
+        fe__pair_remove_from_list(world, pair, index);
+    body->contact_count += sign * (p->next_patch >= 0 ? FE__PATCHES : 1); // as many as the pair may have
+    body->static_pairs += sign * is_with_static;
 }
 
-static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
-{
-    fe__pair_remove_from_list(world, pair, index);
-    world->bodies[index].contact_count -= world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
-    world->bodies[index].static_pairs -= is_with_static(world, pair);
-}
-
-// Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay so,
-// whatever they touch.
-static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
-{
-    const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
-    int32_t dynamic_a = world->bodies[p->body_a].type == FE_BODY_DYNAMIC,
-            dynamic_b = world->bodies[p->body_b].type == FE_BODY_DYNAMIC;
-    const fe__shape *sleeper = dynamic_a ? a : b;
-    return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
-}
-
-// ---- birth ---------------------------------------------------------------------------------------------------------
-// Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else
-// that shape's.
-static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape *b)
-{
-    int32_t swapped = fe__collide_swaps(&a->form, &b->form);
-    int32_t dynamic_a = world->bodies[a->body].type == FE_BODY_DYNAMIC,
-            dynamic_b = world->bodies[b->body].type == FE_BODY_DYNAMIC;
-    int32_t flipped = dynamic_a != dynamic_b ? dynamic_a : swapped;
-    return (swapped ? (uint32_t)FE__PAIR_SWAPPED : 0u) | (flipped ? (uint32_t)FE__PAIR_FLIPPED : 0u);
-}
-
-// What a pair is by its shapes and its number alone
 uint32_t fe__pair_nature(const fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
 {
     const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
-    uint32_t flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
+    // the solver's A is the body that is not dynamic, or else the body of fe__collide's A (see collide.h)
+    int32_t swapped = fe__collide_swaps(&a->form, &b->form);
+    int32_t a_is_dynamic = world->bodies[a->body].type == FE_BODY_DYNAMIC,
+            b_is_dynamic = world->bodies[b->body].type == FE_BODY_DYNAMIC;
+    int32_t flipped = a_is_dynamic != b_is_dynamic ? a_is_dynamic : swapped;
+    uint32_t flags = (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
+    if (swapped) flags |= FE__PAIR_SWAPPED;
+    if (flipped) flags |= FE__PAIR_FLIPPED;
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) flags |= FE__PAIR_SENSOR;
     if (a->parent >= 0 || b->parent >= 0) flags |= FE__PAIR_OF_PARTS;
     return number ? flags | FE__PAIR_PATCH : flags;
 }
 
-static int32_t take_slot(fe_world *world)
-{
-    if (world->first_free_pair < 0) return world->pair_limit++;
-    int32_t pair = world->first_free_pair;
-    world->first_free_pair = world->pairs[pair].links[0].next;
-    return pair;
-}
-
-// A record of its own, in no list
+// A record in no list. `number`: 0, or that of a patch
 static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
 {
-    int32_t pair = take_slot(world);
-    const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
+    int32_t pair = world->first_free_pair;
+    if (pair >= 0)
+        world->first_free_pair = world->pairs[pair].links[0].next;
+    else
+        pair = world->pair_limit++;
     fe__pair *p = world->pairs + pair;
-    fe__contact *m = world->contacts + pair;
+    fe__contact *contact = world->contacts + pair;
     memset(p, 0, sizeof *p);
-    memset(m, 0, sizeof *m);
+    memset(contact, 0, sizeof *contact);
     p->shape_a = shape_a, p->shape_b = shape_b;
-    p->body_a = a->body, p->body_b = b->body;
+    p->body_a = world->shapes[shape_a].body, p->body_b = world->shapes[shape_b].body;
     p->flags = fe__pair_nature(world, shape_a, shape_b, number);
     p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
-    m->colour = m->kind = -1;
-    m->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;
-    m->body_b = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
+    contact->colour = contact->kind = -1;
+    contact->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;
+    contact->body_b = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
     return pair;
-}
-
-static void create_patches(fe_world *world, int32_t head)
-{
-    for (int32_t number = FE__PATCHES - 1; number > 0; --number) {
-        int32_t patch = create_record(world, world->pairs[head].shape_a, world->pairs[head].shape_b, number);
-        world->pairs[patch].head = head;
-        world->pairs[patch].next_patch = world->pairs[head].next_patch;
-        world->pairs[head].next_patch = patch;
-    }
-    ++world->field_pair_count;
 }
 
 int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t denied)
 {
     int32_t pair = create_record(world, shape_a, shape_b, 0);
-    if (denied)
-        world->pairs[pair].flags |= FE__PAIR_DENIED;
-    else if (fe__is_field_pair(world, shape_a, shape_b))
-        create_patches(world, pair);
-    const fe__pair *p = world->pairs + pair;
+    fe__pair *p = world->pairs + pair;
+    if (denied) {
+        p->flags |= FE__PAIR_DENIED;
+    } else if (fe__is_field_pair(world, shape_a, shape_b)) {
+        for (int32_t number = FE__PATCHES - 1; number > 0; --number) {
+            int32_t patch = create_record(world, shape_a, shape_b, number);
+            world->pairs[patch].head = pair;
+            world->pairs[patch].next_patch = p->next_patch;
+            p->next_patch = patch;
+        }
+        ++world->field_pair_count;
+    }
     fe__pair_mix(world, pair);
-    add_to_body(world, pair, p->body_a);
-    add_to_body(world, pair, p->body_b);
+    count_at_body(world, pair, p->body_a, 1);
+    count_at_body(world, pair, p->body_b, 1);
     fe__pair_set_insert(&world->pair_set, shape_a, shape_b, pair);
     if (p->flags & FE__PAIR_OF_PARTS) fe__encounter_gain(world, pair);
-    if (world->bodies[p->body_a].awake_index >= 0 || world->bodies[p->body_b].awake_index >= 0)
+    const fe__body *a = world->bodies + p->body_a, *b = world->bodies + p->body_b;
+    // Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay
+    // so, whatever they touch.
+    int32_t a_is_dynamic = a->type == FE_BODY_DYNAMIC, b_is_dynamic = b->type == FE_BODY_DYNAMIC;
+    const fe__shape *sleeper = world->shapes + (a_is_dynamic ? shape_a : shape_b);
+    int32_t concerns_sleepers =
+        p->flags & FE__PAIR_SENSOR || (a_is_dynamic != b_is_dynamic && !(sleeper->flags & FE__SHAPE_MOVED));
+    if (a->awake_index >= 0 || b->awake_index >= 0)
         fe__pair_awaken(world, pair);
-    else if (concerns_sleepers(world, p))
+    else if (concerns_sleepers)
         fe__pair_look_once(world, pair);
     ++world->pair_count;
     world->trigger_pair_count += (p->flags & FE__PAIR_SENSOR) != 0;
@@ -145,7 +123,8 @@ void fe__pair_release(fe_world *world, int32_t pair)
     world->first_free_pair = pair;
 }
 
-// ---- events --------------------------------------------------------------------------------------------------------
+// ---- events ---------------------------------------------------------------------------------------------------------
+
 fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
@@ -161,21 +140,6 @@ fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int
                                    .triangle = p->triangle};
 }
 
-// An exit that is owed waits in the record of its contact: its handles may be stale when it is reported.
-_Static_assert(sizeof(fe__pair_event_record) <= sizeof(fe__contact), "an exit fits into its record");
-
-static void owe_exit(fe_world *world, int32_t pair)
-{
-    fe__pair_event_record owed = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
-    owed.triangle = -1; // the pair is no longer over it, nor at a part
-    owed.serial_a = fe__serial_of_whole(owed.serial_a), owed.serial_b = fe__serial_of_whole(owed.serial_b);
-    memcpy(world->contacts + pair, &owed, sizeof owed);
-    world->pairs[pair].flags = FE__PAIR_FREE;
-    world->pairs[pair].links[0].next = world->first_owed;
-    world->first_owed = pair;
-    ++world->owed_count;
-}
-
 void fe__report_owed_exits(fe_world *world)
 {
     while (world->first_owed) {
@@ -187,11 +151,14 @@ void fe__report_owed_exits(fe_world *world)
     world->owed_count = 0;
 }
 
-// ---- death ---------------------------------------------------------------------------------------------------------
-static void destroy_patches(fe_world *world, int32_t head)
+// ---- destruction ----------------------------------------------------------------------------------------------------
+
+void fe__pair_destroy(fe_world *world, int32_t pair)
 {
-    if (world->pairs[head].next_patch < 0) return;
-    for (int32_t patch = world->pairs[head].next_patch, next; patch >= 0; patch = next) {
+    fe__pair *p = world->pairs + pair;
+    int32_t touched = (p->flags & FE__PAIR_TOUCHING) != 0;
+    if (p->next_patch >= 0) --world->field_pair_count;
+    for (int32_t patch = p->next_patch, next; patch >= 0; patch = next) {
         next = world->pairs[patch].next_patch;
         if (world->pairs[patch].flags & FE__PAIR_LINKED) {
             fe__pair_unlink(world, patch);
@@ -200,27 +167,29 @@ static void destroy_patches(fe_world *world, int32_t head)
         fe__points_release(world, patch);
         fe__pair_release(world, patch);
     }
-    --world->field_pair_count;
-}
-
-void fe__pair_destroy(fe_world *world, int32_t pair)
-{
-    const fe__pair *p = world->pairs + pair;
-    int32_t touched = (p->flags & FE__PAIR_TOUCHING) != 0;
-    destroy_patches(world, pair);
     fe__pair_unlink(world, pair);
     if (p->flags & FE__PAIR_OF_PARTS) touched = fe__encounter_lose(world, pair);
     fe__points_release(world, pair);
     fe__pair_retire(world, pair);
-    remove_from_body(world, pair, p->body_a);
-    remove_from_body(world, pair, p->body_b);
+    count_at_body(world, pair, p->body_a, -1);
+    count_at_body(world, pair, p->body_b, -1);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
     world->trigger_pair_count -= (p->flags & FE__PAIR_SENSOR) != 0;
-    if (touched && p->events & FE_SHAPE_EVENTS_TOUCH)
-        owe_exit(world, pair);
-    else
+    if (!(touched && p->events & FE_SHAPE_EVENTS_TOUCH)) {
         fe__pair_release(world, pair);
+        return;
+    }
+    // An exit that is owed waits in the record of its contact: its handles may be stale when it is reported.
+    _Static_assert(sizeof(fe__pair_event_record) <= sizeof(fe__contact), "an exit fits into its record");
+    fe__pair_event_record owed = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
+    owed.triangle = -1; // the pair is no longer over a triangle, nor at a part
+    owed.serial_a = fe__serial_of_whole(owed.serial_a), owed.serial_b = fe__serial_of_whole(owed.serial_b);
+    memcpy(world->contacts + pair, &owed, sizeof owed);
+    p->flags = FE__PAIR_FREE;
+    p->links[0].next = world->first_owed;
+    world->first_owed = pair;
+    ++world->owed_count;
 }
 
 void fe__body_drop_pairs(fe_world *world, int32_t body)
@@ -239,61 +208,48 @@ void fe__body_refilter(fe_world *world, int32_t body)
     }
 }
 
-// ---- pair link ------------------------------------------------------------------------------------------------------
-
-// A patch stands before its head in the bodies' lists, so that who walks them may destroy heads on the way.
-static void enter_lists(fe_world *world, int32_t patch)
-{
-    const fe__pair *p = world->pairs + patch;
-    fe__pair_add_to_list(world, patch, p->body_a);
-    fe__pair_add_to_list(world, patch, p->body_b);
-    if (world->pairs[p->head].awake_index >= 0) fe__pair_awaken(world, patch);
-}
+// ---- links ----------------------------------------------------------------------------------------------------------
 
 // A body that falls on one so many times lighter, which lies on the ground, is stopped in many passes: the light one
 // hands its impulse on and comes back at rest, so that each pass takes one part in 1 + ratio of the speed u. There are
 // two passes in a substep h; until they have stopped it the body sinks by u (h / 2) (1 + ratio). From ten times the
-// linear slop on that strains the light one, at once: the impact is not to find its island unprepared, see solve.c. Of
-// u only what is vertical counts, as what is struck sideways is held by nothing and moves on.
-#define UNEVEN 5.0f
-#define MOST_SINK 0.05f // m
-
-// m/s, of the vertical motions along the normal; without gravity of all. 0 or less: the heavy one is below
-static float falling_speed(const fe__body *heavy, const fe__body *light, fe_vec3 to_light, fe_vec3 gravity)
+// linear slop on that strains the light one, at once: the impact is not to find its island unprepared, see solve.c.
+// Only the vertical part of u counts, because a body that is struck sideways is held by nothing and moves on.
+static void note_uneven_masses(fe_world *world, const fe__contact *contact, float dt)
 {
-    fe_vec3 v = fe__sub(fe__quad_vector(heavy->velocity), fe__quad_vector(light->velocity));
-    float square = fe__dot(gravity, gravity), down = fe__dot(to_light, gravity);
-    if (!(square > 0.0f)) return fe__dot(to_light, v);
-    return down > 0.0f ? fe__dot(v, gravity) * down / square : 0.0f;
-}
-
-static void note_uneven(fe_world *world, const fe__contact *m, float dt)
-{
-    fe__body *heavy = world->bodies + m->body_a, *light = world->bodies + m->body_b;
-    fe_vec3 n = fe__quad_vector(m->normal);
+    const float uneven = 5.0f, most_sink = 0.05f; // ratio of the masses; m
+    fe__body *heavy = world->bodies + contact->body_a, *light = world->bodies + contact->body_b;
+    fe_vec3 n = fe__quad_vector(contact->normal); // from the heavy one to the light one
     if (heavy->inverse_mass > light->inverse_mass) {
         fe__body *lighter = heavy;
         heavy = light, light = lighter, n = fe__scale(-1.0f, n);
     }
-    if (light->inverse_mass <= UNEVEN * heavy->inverse_mass) return;
+    if (light->inverse_mass <= uneven * heavy->inverse_mass) return;
+    // u, m/s: the vertical motion along the normal; without gravity all motion; 0 where the heavy one is below
+    fe_vec3 v = fe__sub(fe__quad_vector(heavy->velocity), fe__quad_vector(light->velocity)), g = world->gravity;
+    float square = fe__dot(g, g), down = fe__dot(n, g), u = fe__dot(n, v);
+    if (square > 0.0f) u = down > 0.0f ? fe__dot(v, g) * down / square : 0.0f;
     float ratio = light->inverse_mass / heavy->inverse_mass, between_passes = 0.5f * dt / (float)world->substeps;
-    float sink = falling_speed(heavy, light, n, world->gravity) * between_passes * (1.0f + ratio);
-    if (sink > MOST_SINK) light->flags |= FE__BODY_STRAINED;
+    if (u * between_passes * (1.0f + ratio) > most_sink) light->flags |= FE__BODY_STRAINED;
 }
 
-void fe__pair_note_colour(fe_world *world, const fe__contact *m)
+void fe__pair_note_colour(fe_world *world, const fe__contact *contact)
 {
-    if (m->colour < 0) return;
-    if (m->colour == FE__OVERFLOW_COLOUR) // it found all of its kind taken
-        *(m->kind & FE__ROW_PAIR ? &world->pair_colours : &world->static_colours) =
-            m->kind & FE__ROW_PAIR ? FE__PAIR_COLOURS : FE__STATIC_COLOURS;
-    else if (m->colour < FE__PAIR_COLOURS)
-        world->pair_colours = fe__maxi(world->pair_colours, m->colour + 1);
-    else
-        world->static_colours = fe__maxi(world->static_colours, m->colour - FE__PAIR_COLOURS + 1);
+    int32_t colour = contact->colour, is_pair = (contact->kind & FE__ROW_PAIR) != 0;
+    if (colour < 0) return;
+    if (colour == FE__OVERFLOW_COLOUR) { // it found all of its kind taken
+        if (is_pair)
+            world->pair_colours = FE__PAIR_COLOURS;
+        else
+            world->static_colours = FE__STATIC_COLOURS;
+    } else if (colour < FE__PAIR_COLOURS) {
+        world->pair_colours = fe__maxi(world->pair_colours, colour + 1);
+    } else {
+        world->static_colours = fe__maxi(world->static_colours, colour - FE__PAIR_COLOURS + 1);
+    }
 }
 
-// Patches are their head's
+// Patches are in no encounter: their head is.
 static int32_t has_encounter(const fe__pair *p)
 {
     return (p->flags & (FE__PAIR_OF_PARTS | FE__PAIR_PATCH)) == FE__PAIR_OF_PARTS;
@@ -301,32 +257,37 @@ static int32_t has_encounter(const fe__pair *p)
 
 void fe__pair_link(fe_world *world, int32_t pair, float dt)
 {
-    fe__contact *m = world->contacts + pair;
-    fe__colour_contact(world->bodies, m);
-    if (m->kind & FE__ROW_PAIR) note_uneven(world, m, dt);
-    world->pairs[pair].flags |= FE__PAIR_LINKED;
+    fe__pair *p = world->pairs + pair;
+    fe__contact *contact = world->contacts + pair;
+    fe__colour_contact(world->bodies, contact);
+    if (contact->kind & FE__ROW_PAIR) note_uneven_masses(world, contact, dt);
+    p->flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     ++world->linked_count;
-    fe__pair_note_colour(world, m);
-    if (world->pairs[pair].awake_index >= 0) ++world->awake_linked_count, ++world->solver.unbuilt;
-    if (has_encounter(world->pairs + pair)) fe__encounter_hold(world, pair, 1);
-    if (world->pairs[pair].flags & FE__PAIR_PATCH) enter_lists(world, pair);
+    fe__pair_note_colour(world, contact);
+    if (p->awake_index >= 0) ++world->awake_linked_count, ++world->solver.unbuilt;
+    if (has_encounter(p)) fe__encounter_hold(world, pair, 1);
+    if (!(p->flags & FE__PAIR_PATCH)) return;
+    // a patch stands before its head in the bodies' lists, so that a walk over them may destroy heads on the way
+    fe__pair_add_to_list(world, pair, p->body_a);
+    fe__pair_add_to_list(world, pair, p->body_b);
+    if (world->pairs[p->head].awake_index >= 0) fe__pair_awaken(world, pair);
 }
 
 void fe__pair_forget_impulses(fe_world *world, int32_t pair)
 {
-    const fe__contact *m = world->contacts + pair;
-    if (!m->points) return;
-    fe__points_forget_impulses(fe__points_of(world, m));
-    fe__extra *e = fe__extra_of(world, m);
-    for (int k = 0; k < 3 && e; ++k) e->rolling_impulse[k] = 0.0f;
+    const fe__contact *contact = world->contacts + pair;
+    if (!contact->points) return;
+    fe__points_forget_impulses(fe__points_of(world, contact));
+    fe__extra *extra = fe__extra_of(world, contact);
+    for (int k = 0; k < 3 && extra; ++k) extra->rolling_impulse[k] = 0.0f;
 }
 
 void fe__pair_unlink(fe_world *world, int32_t pair)
 {
-    fe__contact *m = world->contacts + pair;
-    if (m->colour < 0) return;
-    fe__uncolour_contact(world->bodies, m);
+    fe__contact *contact = world->contacts + pair;
+    if (contact->colour < 0) return;
+    fe__uncolour_contact(world->bodies, contact);
     fe__points_release(world, pair);
     world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
     if (has_encounter(world->pairs + pair)) fe__encounter_hold(world, pair, 0);

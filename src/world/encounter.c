@@ -27,7 +27,7 @@ fe__encounter *fe__find_encounter(const fe_world *world, int32_t shape_a, int32_
     return index >= 0 ? encounter_at(world, index) : NULL;
 }
 
-// ---- the list of those to report of --------------------------------------------------------------------------------
+// ---- list of the encounters to report -------------------------------------------------------------------------------
 
 void fe__encounter_note(fe_world *world, fe__encounter *e)
 {
@@ -51,9 +51,9 @@ void fe__encounter_reported(fe_world *world, fe__encounter *e)
     e->listed = e->next = e->previous = 0;
 }
 
-// ---- touching ------------------------------------------------------------------------------------------------------
+// ---- pairs ----------------------------------------------------------------------------------------------------------
 
-// Another pair that touches, in the shorter list of the two bodies
+// Another pair that touches, from the shorter list of the two bodies
 static int32_t find_lead(const fe_world *world, const fe__encounter *e)
 {
     int32_t a = world->shapes[e->shape_a].body, b = world->shapes[e->shape_b].body,
@@ -78,8 +78,6 @@ void fe__encounter_touch(fe_world *world, int32_t pair, int32_t touches)
     fe__encounter_note(world, e);
 }
 
-// ---- one-way shapes ------------------------------------------------------------------------------------------------
-
 void fe__encounter_hold(fe_world *world, int32_t pair, int32_t holds)
 {
     fe__encounter_of(world, pair)->held += holds ? 1 : -1;
@@ -90,33 +88,19 @@ void fe__encounter_pass(fe_world *world, int32_t pair, int32_t passes)
     fe__encounter_of(world, pair)->passing += passes ? 1 : -1;
 }
 
-// ---- life ----------------------------------------------------------------------------------------------------------
-
-static fe__encounter *begin(fe_world *world, const fe__pair *p)
-{
-    int32_t index = fe__record_pool_take(&world->encounters);
-    fe__encounter *e = encounter_at(world, index);
-    e->shape_a = fe__whole_shape(world->shapes, p->shape_a);
-    e->shape_b = fe__whole_shape(world->shapes, p->shape_b);
-    e->denied = (p->flags & FE__PAIR_DENIED) != 0;
-    fe__pair_set_insert(&world->encounter_set, e->shape_a, e->shape_b, index);
-    ++world->encounter_count;
-    return e;
-}
-
-static void end(fe_world *world, fe__encounter *e)
-{
-    fe__encounter_reported(world, e);
-    fe__pair_set_remove(&world->encounter_set, e->shape_a, e->shape_b);
-    fe__record_pool_return(&world->encounters, index_of(world, e));
-    --world->encounter_count;
-}
-
 void fe__encounter_gain(fe_world *world, int32_t pair)
 {
-    fe__pair *p = world->pairs + pair;
+    const fe__pair *p = world->pairs + pair;
     fe__encounter *e = fe__encounter_of(world, pair);
-    if (!e) e = begin(world, p);
+    if (!e) {
+        int32_t index = fe__record_pool_take(&world->encounters);
+        e = encounter_at(world, index);
+        e->shape_a = fe__whole_shape(world->shapes, p->shape_a);
+        e->shape_b = fe__whole_shape(world->shapes, p->shape_b);
+        e->denied = (p->flags & FE__PAIR_DENIED) != 0;
+        fe__pair_set_insert(&world->encounter_set, e->shape_a, e->shape_b, index);
+        ++world->encounter_count;
+    }
     ++e->pairs;
     ++world->part_pair_count;
 }
@@ -129,6 +113,9 @@ int32_t fe__encounter_lose(fe_world *world, int32_t pair)
     int32_t owes = e->entered;
     --world->part_pair_count;
     if (--e->pairs > 0) return 0;
-    end(world, e);
+    fe__encounter_reported(world, e);
+    fe__pair_set_remove(&world->encounter_set, e->shape_a, e->shape_b);
+    fe__record_pool_return(&world->encounters, index_of(world, e));
+    --world->encounter_count;
     return owes;
 }

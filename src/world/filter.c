@@ -1,7 +1,7 @@
-// filter.c - who may touch whom.
+// filter.c - whether two shapes may collide.
 //
-// Asked by the broad phase before a pair exists, so that what may not touch costs no narrow phase, wakes nobody and
-// makes no event.
+// Asked by the broad phase before a pair exists, so that shapes that may not collide cost no narrow phase, wake no body
+// and make no event.
 #include "world/filter.h"
 
 #include "world/joint.h"
@@ -16,18 +16,16 @@ static int32_t types_meet(const fe_world *world, const fe__shape *a, const fe__s
     return (a->flags | b->flags) & FE__SHAPE_TRIGGER && (type_a == FE_BODY_KINEMATIC || type_b == FE_BODY_KINEMATIC);
 }
 
-// One group of both decides: above 0 they collide, below 0 they do not; layers decide otherwise.
-static int32_t groups_and_layers_meet(const fe__shape *a, const fe__shape *b)
-{
-    if (a->group == b->group && a->group != 0) return a->group > 0;
-    return a->layer & b->mask && b->layer & a->mask;
-}
-
 int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b)
 {
     const fe__shape *a = &world->shapes[shape_a], *b = &world->shapes[shape_b];
     if (a->body == b->body) return 0;
-    if (!groups_and_layers_meet(a, b)) return 0;
+    // a common group decides: above 0 they collide, below 0 they do not; without one the layers decide
+    if (a->group == b->group && a->group != 0) {
+        if (a->group < 0) return 0;
+    } else if (!(a->layer & b->mask && b->layer & a->mask)) {
+        return 0;
+    }
     const fe__body *body_a = &world->bodies[a->body], *body_b = &world->bodies[b->body];
     uint32_t both = body_a->flags & body_b->flags;
     if (!(both & FE__BODY_ENABLED) || !types_meet(world, a, b)) return 0;

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-// ---- hash -----------------------------------------------------------------------------------------------------------
+// ---- world ----------------------------------------------------------------------------------------------------------
 
 static void hash_floats(fe__hash *h, const float *a, int count)
 {
@@ -29,7 +29,7 @@ static void hash_body(fe__hash *h, const fe__body *b)
     fe__hash_float(h, b->sleep_timer);
 }
 
-// As if there were no parts, and then the part's number. The number of a patch is above (contact_solver.h)
+// The serial of the whole shape, as if there were no parts, then the part's number. A patch's number is above both.
 static void hash_serial(fe__hash *h, uint64_t serial)
 {
     uint64_t patch = serial >> FE__PATCH_SHIFT << FE__PATCH_SHIFT;
@@ -38,7 +38,7 @@ static void hash_serial(fe__hash *h, uint64_t serial)
     if (part >= 0) fe__hash_i32(h, part);
 }
 
-// contacts have no order of their own: their fingerprints are summed
+// Contacts have no order of their own: their fingerprints are summed.
 uint64_t fe__hash_of_contact(const fe_world *w, int32_t pair)
 {
     const fe__contact *m = w->contacts + pair;
@@ -59,18 +59,15 @@ uint64_t fe__hash_of_contact(const fe_world *w, int32_t pair)
     return fe__hash_end(&h);
 }
 
-static void hash_pair_events(fe__hash *h, const fe__pair_event_record *r, int32_t count)
+static void hash_events(fe__hash *h, const fe_world *w)
 {
-    fe__hash_i32(h, count);
-    for (int32_t i = 0; i < count; ++i) {
-        hash_serial(h, r[i].serial_a);
-        hash_serial(h, r[i].serial_b);
-        fe__hash_i32(h, r[i].kind << 1 | r[i].is_trigger);
+    fe__hash_i32(h, w->pair_event_count);
+    for (int32_t i = 0; i < w->pair_event_count; ++i) {
+        const fe__pair_event_record *r = w->pair_events + i;
+        hash_serial(h, r->serial_a);
+        hash_serial(h, r->serial_b);
+        fe__hash_i32(h, r->kind << 1 | r->is_trigger);
     }
-}
-
-static void hash_other_events(fe__hash *h, const fe_world *w)
-{
     fe__hash_i32(h, w->body_event_count);
     for (int32_t i = 0; i < w->body_event_count; ++i) {
         fe__hash_u64(h, w->body_events[i].serial);
@@ -87,8 +84,16 @@ static void hash_other_events(fe__hash *h, const fe_world *w)
     }
 }
 
-static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
+static void hash_impulses(fe__hash *h, const fe_world *w, int32_t joint)
 {
+    const fe__joint *j = w->joints.joints + joint;
+    const fe__joint_frame *f = w->joints.frames + joint;
+    hash_floats(h, j->impulse, 3);
+    hash_floats(h, f->impulse, 3);
+    hash_floats(h, w->joints.reactions[joint].force, 3);
+    hash_floats(h, w->joints.reactions[joint].torque, 3);
+    if (!f->axes) return;
+    const fe__joint_axes *axes = w->joints.axes + f->axes;
     for (int k = 0; k < FE__AXES; ++k) {
         const fe__joint_axis *axis = axes->axis + k;
         fe__hash_float(h, axis->impulse.drive), fe__hash_float(h, axis->impulse.motor);
@@ -100,17 +105,6 @@ static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
     hash_floats(h, axes->rotation.torque, 3);
 }
 
-static void hash_impulses(fe__hash *h, const fe_world *w, int32_t joint)
-{
-    const fe__joint *j = w->joints.joints + joint;
-    const fe__joint_frame *f = w->joints.frames + joint;
-    hash_floats(h, j->impulse, 3);
-    hash_floats(h, f->impulse, 3);
-    hash_floats(h, w->joints.reactions[joint].force, 3);
-    hash_floats(h, w->joints.reactions[joint].torque, 3);
-    if (f->axes) hash_axes(h, w->joints.axes + f->axes);
-}
-
 uint64_t fe__hash_of_impulses(const fe_world *w, int32_t joint)
 {
     fe__hash h = fe__hash_begin();
@@ -119,7 +113,7 @@ uint64_t fe__hash_of_impulses(const fe_world *w, int32_t joint)
     return fe__hash_end(&h);
 }
 
-// settings, as they were set, and impulses
+// Settings, as they were given, and impulses
 static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
 {
     const fe__joint_record *r = w->joint_records + joint;
@@ -133,23 +127,10 @@ static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
     hash_impulses(h, w, joint);
 }
 
-// Nothing where there are none
-static void hash_joints(fe__hash *h, const fe_world *w)
-{
-    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) hash_joint(h, w, joint);
-    for (int32_t i = 0; i < w->joint_event_count; ++i) {
-        const fe__joint_event_record *r = w->joint_events + i;
-        fe__hash_u64(h, r->serial);
-        fe__hash_vec3(h, r->event.force);
-        fe__hash_vec3(h, r->event.torque);
-    }
-}
-
 uint64_t fe__hash_of_events(const fe_world *w)
 {
     fe__hash h = fe__hash_begin();
-    hash_pair_events(&h, w->pair_events, w->pair_event_count);
-    hash_other_events(&h, w);
+    hash_events(&h, w);
     return fe__hash_end(&h);
 }
 
@@ -165,15 +146,19 @@ uint64_t fe__world_hash(const fe_world *w)
                 contacts += fe__hash_of_contact(w, pair);
     }
     fe__hash_u64(&h, contacts);
-    hash_pair_events(&h, w->pair_events, w->pair_event_count);
-    hash_other_events(&h, w);
-    hash_joints(&h, w);
+    hash_events(&h, w);
+    // a world without joints hashes as if there were no such thing
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) hash_joint(&h, w, joint);
+    for (int32_t i = 0; i < w->joint_event_count; ++i) {
+        const fe__joint_event_record *r = w->joint_events + i;
+        fe__hash_u64(&h, r->serial);
+        fe__hash_vec3(&h, r->event.force);
+        fe__hash_vec3(&h, r->event.torque);
+    }
     return fe__hash_end(&h);
 }
 
-// ---- joint hash -----------------------------------------------------------------------------------------------------
-// The settings of a joint as words, for the fingerprint of a world.
-//
+// ---- settings of joints ---------------------------------------------------------------------------------------------
 // The order of these words is that of the first definitions of joints. It is kept apart from the structs of the API, so
 // that a field more there changes no fingerprint of a world that does not use it.
 
@@ -198,7 +183,7 @@ static void put_quat(words *w, fe_quat q)
     put_float(w, q.x), put_float(w, q.y), put_float(w, q.z), put_float(w, q.w);
 }
 
-// Neither bodies nor user data: these are slots, and what is the host's
+// Bodies and user data are left out: the one are slots, the other is the host's.
 static void put_common(words *w, const fe_joint_def *d)
 {
     enum { BODIES_AND_USER_DATA = 6 };
@@ -213,34 +198,7 @@ static void put_common(words *w, const fe_joint_def *d)
     put_zeros(w, 1);
 }
 
-static void put_distance(words *w, const fe_distance_joint_def *d)
-{
-    put_float(w, d->lower), put_float(w, d->upper), put_float(w, d->target);
-    put_float(w, d->spring_hertz), put_float(w, d->spring_damping_ratio), put_float(w, d->spring_max);
-    put_float(w, d->motor_speed), put_float(w, d->motor_max);
-}
-
-static void put_ball(words *w, const fe_ball_joint_def *d)
-{
-    put_int(w, d->cone_enabled), put_float(w, d->cone_y), put_float(w, d->cone_z);
-    put_int(w, d->limit_enabled), put_float(w, d->lower), put_float(w, d->upper);
-    put_float(w, d->limit_hertz), put_float(w, d->limit_damping_ratio);
-    put_float(w, d->spring_hertz), put_float(w, d->spring_damping_ratio), put_float(w, d->spring_max);
-    put_quat(w, d->target);
-    put_vec3(w, d->motor_velocity), put_float(w, d->motor_max);
-    put_zeros(w, 1);
-}
-
-static void put_hinge(words *w, const fe_hinge_joint_def *d)
-{
-    put_int(w, d->limit_enabled), put_float(w, d->lower), put_float(w, d->upper);
-    put_float(w, d->limit_hertz), put_float(w, d->limit_damping_ratio);
-    put_float(w, d->spring_hertz), put_float(w, d->spring_damping_ratio), put_float(w, d->spring_max);
-    put_float(w, d->target), put_float(w, d->motor_speed), put_float(w, d->motor_max);
-    put_zeros(w, 1);
-}
-
-// A spring by stiffness puts its own pair in the place of hertz and damping ratio
+// A spring by stiffness puts its own pair in the place of hertz and damping ratio.
 static void put_axis(words *w, const fe_joint_axis *a)
 {
     int32_t physical = a->spring == FE_SPRING_STIFFNESS;
@@ -254,15 +212,30 @@ static void put_axis(words *w, const fe_joint_axis *a)
 
 static void put_settings(words *w, int32_t type, const fe__joint_any *def)
 {
+    const fe_distance_joint_def *distance = &def->distance;
+    const fe_ball_joint_def *ball = &def->ball;
+    const fe_hinge_joint_def *hinge = &def->hinge;
     switch (type) {
     case FE_JOINT_DISTANCE:
-        put_distance(w, &def->distance);
+        put_float(w, distance->lower), put_float(w, distance->upper), put_float(w, distance->target);
+        put_float(w, distance->spring_hertz), put_float(w, distance->spring_damping_ratio);
+        put_float(w, distance->spring_max), put_float(w, distance->motor_speed), put_float(w, distance->motor_max);
         return;
     case FE_JOINT_BALL:
-        put_ball(w, &def->ball);
+        put_int(w, ball->cone_enabled), put_float(w, ball->cone_y), put_float(w, ball->cone_z);
+        put_int(w, ball->limit_enabled), put_float(w, ball->lower), put_float(w, ball->upper);
+        put_float(w, ball->limit_hertz), put_float(w, ball->limit_damping_ratio);
+        put_float(w, ball->spring_hertz), put_float(w, ball->spring_damping_ratio), put_float(w, ball->spring_max);
+        put_quat(w, ball->target);
+        put_vec3(w, ball->motor_velocity), put_float(w, ball->motor_max);
+        put_zeros(w, 1);
         return;
     case FE_JOINT_HINGE:
-        put_hinge(w, &def->hinge);
+        put_int(w, hinge->limit_enabled), put_float(w, hinge->lower), put_float(w, hinge->upper);
+        put_float(w, hinge->limit_hertz), put_float(w, hinge->limit_damping_ratio);
+        put_float(w, hinge->spring_hertz), put_float(w, hinge->spring_damping_ratio), put_float(w, hinge->spring_max);
+        put_float(w, hinge->target), put_float(w, hinge->motor_speed), put_float(w, hinge->motor_max);
+        put_zeros(w, 1);
         return;
     case FE_JOINT_FIXED:
         put_float(w, def->fixed.angular_hertz), put_float(w, def->fixed.angular_damping_ratio);

@@ -1,4 +1,4 @@
-// ignored_pairs.c - see filter.h.
+// ignored_pairs.c - pairs of bodies that ignore each other, see filter.h.
 #include "world/filter.h"
 
 #include "world/contact.h"
@@ -44,16 +44,6 @@ static void forget(fe_world *world, int32_t index)
     fe__record_pool_return(&world->ignores, index);
 }
 
-static void remember(fe_world *world, int32_t a, int32_t b)
-{
-    int32_t index = fe__record_pool_take(&world->ignores);
-    fe__ignore *record = ignore_at(world, index);
-    record->body[0] = a, record->body[1] = b;
-    add_to_list(world, index, a);
-    add_to_list(world, index, b);
-    fe__pair_set_insert(&world->ignored, a, b, index);
-}
-
 fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ignore)
 {
     int32_t known = fe__pair_set_find(&world->ignored, a, b);
@@ -64,12 +54,17 @@ fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ig
             fe__shape_mark_moved(world, i);
         return FE_OK;
     }
-    fe_result room = fe__record_pool_reserve(&world->ignores, &world->memory, 1);
-    if (room != FE_OK) return room;
+    fe_result reserved = fe__record_pool_reserve(&world->ignores, &world->memory, 1);
+    if (reserved != FE_OK) return reserved;
     if (!fe__pair_set_reserve(&world->ignored, &world->memory, 1)) return FE_ERROR_MEMORY;
     fe__body_disturb(world, a);
     fe__body_disturb(world, b);
-    remember(world, a, b);
+    int32_t index = fe__record_pool_take(&world->ignores);
+    fe__ignore *record = ignore_at(world, index);
+    record->body[0] = a, record->body[1] = b;
+    add_to_list(world, index, a);
+    add_to_list(world, index, b);
+    fe__pair_set_insert(&world->ignored, a, b, index);
     fe__body_refilter(world, a);
     return FE_OK;
 }

@@ -1,4 +1,4 @@
-// joint.c - see joint_solver.h.
+// joint.c - see joint.h.
 #include "world/joint.h"
 
 #include "core/bytes.h"
@@ -8,9 +8,8 @@
 #include <float.h>
 #include <string.h>
 
-// ---- joint list -----------------------------------------------------------------------------------------------------
+// ---- lists ----------------------------------------------------------------------------------------------------------
 
-// ---- of a body -----------------------------------------------------------------------------------------------------
 static fe__link *link_of(fe_world *world, int32_t joint, int32_t body)
 {
     fe__joint_record *r = world->joint_records + joint;
@@ -71,8 +70,6 @@ void fe__joint_remove_from_order(fe_world *world, int32_t joint)
     --world->joint_count;
 }
 
-// ---- who is awake --------------------------------------------------------------------------------------------------
-// ---- of the awake --------------------------------------------------------------------------------------------------
 static int32_t is_awake_dynamic(const fe_world *world, int32_t body)
 {
     return world->bodies[body].type == FE_BODY_DYNAMIC && world->bodies[body].awake_index >= 0;
@@ -101,7 +98,7 @@ void fe__joint_retire(fe_world *world, int32_t joint)
     if (r->awake_index < 0 || is_awake_dynamic(world, r->body[0]) || is_awake_dynamic(world, r->body[1])) return;
     fe__joint_leave_awake(world, joint);
 }
-// ---- who is joined -------------------------------------------------------------------------------------------------
+
 int32_t fe__bodies_joined(const fe_world *world, int32_t a, int32_t b)
 {
     int32_t from = world->bodies[a].joint_total <= world->bodies[b].joint_total ? a : b, to = from == a ? b : a;
@@ -123,7 +120,7 @@ int32_t fe__anchor_create(fe_world *world, fe_dvec3 origin)
 void fe__anchor_open(fe_world *world, int32_t index, fe_dvec3 origin)
 {
     fe__body *body = &world->bodies[index];
-    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
+    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whichever body has it
     memset(body, 0, sizeof *body);
     body->type = FE_BODY_STATIC;
     body->flags = FE__BODY_ENABLED | FE__BODY_ANCHOR | listed;
@@ -148,7 +145,7 @@ void fe__anchor_destroy(fe_world *world, int32_t index)
     fe__id_pool_release(&world->body_ids, index);
 }
 
-// ---- joint drive ----------------------------------------------------------------------------------------------------
+// ---- drives ---------------------------------------------------------------------------------------------------------
 
 float *fe__joint_motor_speed(fe__joint_any *def, int32_t type, int32_t dof)
 {

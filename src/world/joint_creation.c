@@ -1,4 +1,4 @@
-// joint_creation.c - the life of joints: birth, change, places in lists and in the constraint graph, death.
+// joint_creation.c - the life of joints: creation, change, places in lists and in the constraint graph, destruction.
 //
 // Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while
 // it is enabled, its bodies are, and one of them is dynamic.
@@ -23,7 +23,8 @@ void fe__joints_init(fe_world *world)
         fe__record_pool_init(&world->joint_settings[type], fe__joint_def_size(type) - FE__JOINT_FRONT);
 }
 
-// ---- the constraint graph ------------------------------------------------------------------------------------------
+// ---- constraint graph -----------------------------------------------------------------------------------------------
+
 int32_t fe__joint_acts(const fe_world *world, int32_t joint)
 {
     const fe__joint_record *r = world->joint_records + joint;
@@ -32,7 +33,7 @@ int32_t fe__joint_acts(const fe_world *world, int32_t joint)
            (a->type == FE_BODY_DYNAMIC || b->type == FE_BODY_DYNAMIC);
 }
 
-// A joint that does not act bears nothing
+// Links a joint if it acts. One that does not bears nothing.
 static void link(fe_world *world, int32_t joint)
 {
     if (!fe__joint_acts(world, joint)) {
@@ -63,7 +64,7 @@ void fe__body_link_joints(fe_world *world, int32_t body)
         link(world, joint);
 }
 
-// Pairs that may no longer be end now; those that may be again are found by the next step
+// Ends the pairs that may no longer be (parted: 1), or has the next step find those that may be again.
 static void refilter(fe_world *world, const fe__joint_record *r, int32_t parted)
 {
     if (!parted) {
@@ -81,15 +82,11 @@ static void wake_bodies(fe_world *world, const int32_t *bodies)
         if (world->bodies[bodies[k]].flags & FE__BODY_ENABLED) fe__wake(world, bodies[k]);
 }
 
-// ---- what the solver reads -----------------------------------------------------------------------------------------
+// ---- the solver's half of a joint -----------------------------------------------------------------------------------
+
 static void set_vec(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 static void set_quat(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
-static fe_vec3 local_centre(const fe__body *b)
-{
-    return fe__vec3(b->local_centre[0], b->local_centre[1], b->local_centre[2]);
-}
-
-// A twist counts its turns from the middle of its range
+// A twist counts its turns from the middle of its range.
 static void wind(fe_world *world, int32_t joint)
 {
     const fe__joint_frame *f = world->joints.frames + joint;
@@ -106,8 +103,8 @@ static void place_anchors(fe_world *world, int32_t joint)
 {
     const fe__joint_record *r = world->joint_records + joint;
     fe__joint *j = world->joints.joints + joint;
-    set_vec(j->arm_a, fe__sub(r->frame[0].position, local_centre(world->bodies + r->body[0])));
-    set_vec(j->arm_b, fe__sub(r->frame[1].position, local_centre(world->bodies + r->body[1])));
+    set_vec(j->arm_a, fe__sub(r->frame[0].position, fe__quad_vector(world->bodies[r->body[0]].local_centre)));
+    set_vec(j->arm_b, fe__sub(r->frame[1].position, fe__quad_vector(world->bodies[r->body[1]].local_centre)));
 }
 
 void fe__body_place_anchors(fe_world *world, int32_t body)
@@ -122,18 +119,18 @@ void fe__body_wind_joints(fe_world *world, int32_t body)
         wind(world, joint);
 }
 
-// What the last step left in them may be no number
 void fe__body_forget_joints(fe_world *world, int32_t body)
 {
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
         const fe__joint_frame *f = world->joints.frames + joint;
         fe__joint_forget_impulses(&world->joints, joint);
+        // the last step may have left no numbers
         for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state.x = 0.0f;
         wind(world, joint);
     }
 }
 
-// Impulses and states of an axis go on while the part does that has them
+// Impulses and states of an axis go on if the part that has them stays.
 static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan)
 {
     fe__joint_frame *f = world->joints.frames + joint;
@@ -172,7 +169,8 @@ void fe__joint_fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     wind(world, joint);
 }
 
-// ---- birth, change, death ------------------------------------------------------------------------------------------
+// ---- creation, change, destruction ----------------------------------------------------------------------------------
+
 static fe_result reserve_axes(fe_world *world, int32_t extra)
 {
     fe_result result = fe__record_pool_reserve(&world->joint_axes, &world->memory, extra);
@@ -186,12 +184,12 @@ static fe_result reserve(fe_world *world, int32_t type, int32_t with_axes)
     fe_result ids = fe__id_pool_reserve(&world->joint_ids, memory, 1);
     if (ids != FE_OK) return ids;
     int64_t limit = 1 + (int64_t)world->joint_ids.slot_count + (world->joint_ids.free_count ? 0 : 1);
-    int32_t room = FE_RESERVE(memory, world->joints.joints, world->joint_capacity[0], limit) &&
-                   FE_RESERVE(memory, world->joints.frames, world->joint_capacity[1], limit) &&
-                   FE_RESERVE(memory, world->joints.reactions, world->joint_capacity[2], limit) &&
-                   FE_RESERVE(memory, world->joint_records, world->joint_capacity[3], limit) &&
-                   FE_RESERVE(memory, world->awake_joints, world->awake_joint_capacity, limit);
-    if (!room) return FE_ERROR_MEMORY;
+    int32_t is_done = FE_RESERVE(memory, world->joints.joints, world->joint_capacity[0], limit) &&
+                      FE_RESERVE(memory, world->joints.frames, world->joint_capacity[1], limit) &&
+                      FE_RESERVE(memory, world->joints.reactions, world->joint_capacity[2], limit) &&
+                      FE_RESERVE(memory, world->joint_records, world->joint_capacity[3], limit) &&
+                      FE_RESERVE(memory, world->awake_joints, world->awake_joint_capacity, limit);
+    if (!is_done) return FE_ERROR_MEMORY;
     fe_result settings = fe__record_pool_reserve(&world->joint_settings[type], memory, 1);
     if (settings != FE_OK) return settings;
     return with_axes ? reserve_axes(world, 1) : FE_OK;
@@ -266,7 +264,7 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
         if (reserved != FE_OK) return reserved;
     }
     int32_t parted = fe__joint_parts_bodies(r);
-    wake_bodies(world, r->body); // those it held, and those it will hold
+    wake_bodies(world, r->body); // before, and after: it may act only then
     unlink(world, joint);
     set_record(world, joint, def);
     fe__joint_fill(world, joint, &plan);

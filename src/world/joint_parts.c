@@ -1,4 +1,4 @@
-// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them
+// joint_parts.c - the parts of each type of joint: locks, limits, drives and motors, as the solver knows them
 // (solver/joint/joint_solver.h).
 //
 // Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no
@@ -9,14 +9,13 @@
 #include "world/body.h"
 #include "world/joint.h"
 
-// ---- joint parts ----------------------------------------------------------------------------------------------------
-
-// m: the longest range that a definition can ask for, hence none
+// The longest range that a definition can ask for, m: no limit
 #define MOST_DISTANCE 1e6f
 
 static uint32_t bit(fe__joint_part part) { return 1u << part; }
 
-// ---- one axis ------------------------------------------------------------------------------------------------------
+// ---- one axis -------------------------------------------------------------------------------------------------------
+
 static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
 {
     axis->limit.low = low, axis->limit.high = high, axis->limit.hertz = hertz,
@@ -37,7 +36,8 @@ static void set_motor(fe__joint_axis *axis, float speed, float cap)
     axis->motor.speed = speed, axis->motor.cap = cap;
 }
 
-// ---- distance, hinge, fixed ----------------------------------------------------------------------------------------
+// ---- distance, hinge, fixed -----------------------------------------------------------------------------------------
+
 static void plan_distance(const fe_distance_joint_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
@@ -69,7 +69,7 @@ static void plan_hinge(const fe_hinge_joint_def *d, fe__joint_plan *plan)
     set_motor(axis, d->motor_speed, d->motor_max);
 }
 
-// Where it is soft it is a spring: drives along the axes, a drive towards no turn
+// A soft fixed joint is a spring: drives along the axes, and a drive towards no rotation.
 static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
 {
     plan->hertz = plan->damping_ratio = 0.0f;
@@ -90,7 +90,8 @@ static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
     rotation->drive.cap = FE__UNLIMITED, rotation->drive.unit = FE__DRIVE_HERTZ;
 }
 
-// ---- rotations of three angles -------------------------------------------------------------------------------------
+// ---- ball -----------------------------------------------------------------------------------------------------------
+
 typedef struct angles {
     float twist, swing_y, swing_z; // rad
 } angles;
@@ -126,7 +127,7 @@ static void set_target(fe__joint_rotation *rotation, fe_quat q)
     rotation->target[0] = q.x, rotation->target[1] = q.y, rotation->target[2] = q.z, rotation->target[3] = q.w;
 }
 
-// the target within cone and range: a swing too wide comes back along its own direction
+// The target within cone and range: a swing too wide comes back along its own direction
 static fe_quat clamped_target(const fe_ball_joint_def *d)
 {
     fe_quat q = fe__normalized(d->target);
@@ -164,8 +165,9 @@ static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
     rotation->motor.cap = d->motor_max;
 }
 
-// ---- configurable --------------------------------------------------------------------------------------------------
-// In the unit of its spring
+// ---- configurable ---------------------------------------------------------------------------------------------------
+
+// Stiffness and damping are in the unit of the axis's spring.
 static float stiffness_of(const fe_joint_axis *a)
 {
     return a->spring == FE_SPRING_STIFFNESS ? a->spring_stiffness : a->spring_hertz;
@@ -179,7 +181,7 @@ static int32_t drives(const fe_joint_axis *a)
     return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f);
 }
 
-// Limits, drive and motor of an axis that is not locked. 0: it has none
+// Plans limits, drive and motor of an axis that is not locked. 0: it has none
 static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
 {
     if (a->motion == FE_MOTION_FREE && !drives(a) && a->motor_max == 0.0f) return 0;
@@ -191,8 +193,8 @@ static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
     return 1;
 }
 
-// One drive for three free rotations, when they are driven alike: angles about three axes do not add up when they are
-// large
+// Plans one drive for three free rotations that are driven alike, because large angles about three axes do not add up.
+// 0: they are not alike
 static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
 {
     for (int k = 0; k < 3; ++k) {
@@ -217,11 +219,11 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
 
 static int32_t is_locked(const fe_joint_axis *a) { return a->motion == FE_MOTION_LOCKED; }
 
-// Where a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings
-// end before, at 170 degrees
+// If a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings end
+// before, at 170 degrees.
 #define MOST_SWING 2.967f
-#define MOST_CARDAN 2.4f         // where the twist is locked: its gradient grows as 1 / cos(swing / 2)
-#define MOST_SWING_OF_TWO 1.697f // each, when their ranges are apart: sqrt(2) times it is the former
+#define MOST_CARDAN 2.4f         // with a locked twist, whose gradient grows as 1 / cos(swing / 2)
+#define MOST_SWING_OF_TWO 1.697f // for each of two ranges: sqrt(2) times it is MOST_CARDAN
 
 static void bound_swings(const fe_joint_axis *about, fe__joint_plan *plan)
 {
@@ -293,7 +295,8 @@ static void plan_configurable(const fe_configurable_joint_def *d, fe__joint_plan
     plan_rotations(d, about, plan);
 }
 
-// ---- all -----------------------------------------------------------------------------------------------------------
+// ---- plan -----------------------------------------------------------------------------------------------------------
+
 void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan *out_plan)
 {
     *out_plan = (fe__joint_plan){.hertz = def->common.hertz, .damping_ratio = def->common.damping_ratio};
@@ -339,13 +342,13 @@ fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t s
                       fe__normalized(fe__product(fe__rotation_of(b), r->frame[side].rotation))};
 }
 
-// of a body's point, m/s
+// The velocity of a body's point, m/s
 static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
 {
     return fe__add(fe__quad_vector(b->velocity), fe__cross(spin_of(b), fe__narrow(fe__dsub(point, fe__centre_of(b)))));
 }
 
-// ---- errors --------------------------------------------------------------------------------------------------------
+// How far x is beyond the limits of an axis
 static float beyond(const fe__joint_axis *axis, float x)
 {
     return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f);
@@ -391,8 +394,7 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
     return error;
 }
 
-// ---- state ---------------------------------------------------------------------------------------------------------
-// From the solver's axes back to those of the definition
+// Turns coordinates from the solver's axes back to those of the definition.
 static void write_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
 {
     fe_quat to = fe__joint_shift(shift), q = fe__product(fe__product(to, pose->q), fe__conjugate(to));
@@ -426,7 +428,7 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
         pose.length > 0.0f ? fe__dot(s->translation, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
     s->linear_error = linear_error(f, axes, &pose);
     s->angular_error = angular_error(f, axes, &pose, twist);
-    if (r->type != FE_JOINT_FIXED) return; // whose springs hold too
+    if (r->type != FE_JOINT_FIXED) return; // the springs of a fixed joint count as locks
     s->linear_error = pose.length;
     s->angular_error = whole_angle(pose.q);
 }

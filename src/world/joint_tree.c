@@ -33,27 +33,18 @@
 #define SHORTEST_TREE 2
 #define SHORT_TREE 32
 
-// A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
-static int32_t is_spring(const fe_world *w, const fe__joint *j)
-{
-    return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
-}
-
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits
 static int32_t is_edge(const fe_world *w, int32_t joint)
 {
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    if (j->colour < 0 || is_spring(w, j)) return 0;
+    // a joint with hertz of its own is a spring, unless they are at least those of all rigid joints
+    int32_t is_spring = j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
+    if (j->colour < 0 || is_spring) return 0;
     if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const fe__joint_axis *axis = w->joints.axes[f->axes].axis + FE__AXIS_LINEAR;
     return axis->limit.low == axis->limit.high && axis->limit.hertz == 0.0f;
-}
-
-static int32_t is_beam(const fe_world *w, int32_t joint)
-{
-    return (w->joints.joints[joint].rows & (1u << FE__PART_HINGE | 1u << FE__PART_FIXED)) != 0;
 }
 
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
@@ -95,7 +86,7 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
 }
 
-// 1: an older one is
+// 1: an older hinge has the same axis.
 static int32_t is_second_hinge(const fe_world *w, int32_t joint)
 {
     const int32_t *ends = w->joint_records[joint].body;
@@ -111,7 +102,7 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
     return 0;
 }
 
-// no joint lets them move along and about all axes
+// The form of a link, by the translations and rotations that its joint leaves free. Without a joint all are.
 static int32_t form_of(const fe_world *w, int32_t joint)
 {
     const uint32_t rows = joint ? w->joints.joints[joint].rows : 0;
@@ -141,12 +132,12 @@ static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int
 typedef struct component {
     int32_t bodies, edges; // dynamic bodies, joints between them
     int32_t anchors;       // joints to the rest of the world
-    int32_t root, anchor;  // of a tree: the anchored body, or else the first that a spring holds, or the first of all;
-                           // its anchor, 0: none
+    int32_t root;          // the anchored body, or else the first that a spring holds, or the first of all
+    int32_t anchor;        // the joint that anchors the root, 0: none
     int32_t sprung;        // 1: a spring holds the root
 } component;
 
-// of the bodies that may be the root, the one created first
+// Makes a body the root if it was created before the others that may be.
 static void offer_root(const fe_world *w, component *c, int32_t body, int32_t sprung)
 {
     if (c->anchors || sprung < c->sprung) return;
@@ -154,7 +145,7 @@ static void offer_root(const fe_world *w, component *c, int32_t body, int32_t sp
     c->sprung = sprung;
 }
 
-// all bodies that hang together with `body`, marked and written to `links`
+// Marks all bodies that hang together with `body`, and writes them to `links`.
 static component explore(fe_world *w, int32_t body, fe__tree_link *links)
 {
     component c = {.bodies = 1, .root = body};
@@ -183,7 +174,7 @@ static component explore(fe_world *w, int32_t body, fe__tree_link *links)
     return c;
 }
 
-// parents before children, joints of a body in the order of creation
+// Writes the links, parents before children, joints of a body in the order of creation.
 static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
 {
     int32_t count = 1;
@@ -205,14 +196,7 @@ static int32_t is_wheel(const fe_world *w, int32_t joint, int32_t body)
     return !(twist->limit.high < FE__UNLIMITED);
 }
 
-// from which share on the lighter part is too light for what it bears
-static float heavy_on(const fe_world *w, const fe__tree_link *links, const fe__tree_link *l)
-{
-    const int32_t above = links[l->parent].body;
-    return is_wheel(w, l->joint, l->body) || is_wheel(w, l->joint, above) ? HEAVY_WHEELED : HEAVY_SUPPORT;
-}
-
-// the largest load on a joint, in effective masses of its own, against what is heavy for it
+// The largest load on a joint in its own effective masses, as a share of the load that is heavy for it
 static float heaviest_load(const fe_world *w, const component *c, fe__tree_link *links)
 {
     const int32_t count = c->bodies, held = c->anchors || c->sprung;
@@ -221,8 +205,10 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     for (int32_t i = count - 1; i > 0; --i) links[links[i].parent].carried += links[i].carried;
     float total = links[0].carried;
     for (int32_t i = 1; i < count && !held; ++i) {
-        float part = fe__minf(links[i].carried, total - links[i].carried);
-        most = fe__maxf(most, (total - part) / (heavy_on(w, links, links + i) * part));
+        const fe__tree_link *l = links + i;
+        int32_t on_wheel = is_wheel(w, l->joint, l->body) || is_wheel(w, l->joint, links[l->parent].body);
+        float part = fe__minf(l->carried, total - l->carried), heavy = on_wheel ? HEAVY_WHEELED : HEAVY_SUPPORT;
+        most = fe__maxf(most, (total - part) / (heavy * part));
     }
     for (int32_t i = 0; i < count; ++i) {
         const fe__tree_link *l = links + i;
@@ -231,7 +217,8 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
         float inverse = w->bodies[l->body].inverse_mass, load = l->carried;
         if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].inverse_mass;
         if (!held) load = l->carried * ((total - l->carried) / total);
-        most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
+        int32_t is_beam = (w->joints.joints[l->joint].rows & (1u << FE__PART_HINGE | 1u << FE__PART_FIXED)) != 0;
+        most = fe__maxf(most, load * inverse / (is_beam ? HEAVY_BEAM : HEAVY_LOAD));
     }
     return most;
 }
@@ -267,14 +254,6 @@ static float levers_of(const fe_world *w, int32_t body)
     return sum;
 }
 
-static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *links)
-{
-    if (heaviest_load(w, c, links) >= 1.0f) return 1;
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (levers_of(w, links[i].body) > HEAVY_LEVERS) return 1;
-    return 0;
-}
-
 static void keep_tree(fe__forest *f, int32_t count, fe__tree_kind kind, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
@@ -301,15 +280,6 @@ static int32_t is_never_singular(uint32_t locks)
     return rotations == 0 || (rotations == 1 && !(linear & angular)) || (rotations == 3 && !linear);
 }
 
-// nor may bodies be locked in different ways
-static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tree_link *links)
-{
-    const float locks = w->bodies[links[0].body].lock_bits;
-    for (int32_t i = 1; i < c->bodies; ++i)
-        if (w->bodies[links[i].body].lock_bits != locks) return 0;
-    return is_never_singular((uint32_t)locks);
-}
-
 // 1: each joint of the body is a lock of the tree: no limit, spring, motor or second hinge, which the sweep meets
 static int32_t is_only_locked(const fe_world *w, int32_t body)
 {
@@ -321,32 +291,22 @@ static int32_t is_only_locked(const fe_world *w, int32_t body)
     return w->bodies[body].lock_bits == 0.0f;
 }
 
-static int32_t is_mechanism(const fe_world *w, const component *c, const fe__tree_link *links)
-{
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (!is_only_locked(w, links[i].body)) return 0;
-    return 1;
-}
-
-static int32_t is_short(const component *c) { return c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE; }
-
-// 1: of ball joints alone
-static int32_t has_balls_alone(const component *c, const fe__tree_link *links)
-{
-    for (int32_t i = 0; i < c->bodies; ++i)
-        if (links[i].joint && !(links[i].form & FE__TREE_BALL)) return 0;
-    return 1;
-}
-
-// A heavy tree that hangs on nothing lends its mass to contacts (tree/articulated_mass.inl), which a rope does not
+// A heavy tree that hangs on nothing lends its mass to contacts (tree/articulated_mass.inl), which a rope does not.
 static fe__tree_kind kind_of(const fe_world *w, const component *c, fe__tree_link *links)
 {
-    const int32_t heavy = is_heavy(w, c, links), mechanism = (heavy || is_short(c)) && is_mechanism(w, c, links);
-    if (mechanism && !(heavy && !c->anchors) && has_balls_alone(c, links)) return FE__TREE_ROPE;
+    const int32_t is_short = c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE;
+    int32_t heavy = heaviest_load(w, c, links) >= 1.0f, has_balls_alone = 1;
+    for (int32_t i = 0; i < c->bodies && !heavy; ++i) heavy = levers_of(w, links[i].body) > HEAVY_LEVERS;
+    int32_t is_mechanism = heavy || is_short;
+    for (int32_t i = 0; i < c->bodies && is_mechanism; ++i) is_mechanism = is_only_locked(w, links[i].body);
+    for (int32_t i = 0; i < c->bodies; ++i)
+        if (links[i].joint && !(links[i].form & FE__TREE_BALL)) has_balls_alone = 0;
+    if (is_mechanism && !(heavy && !c->anchors) && has_balls_alone) return FE__TREE_ROPE;
     if (heavy) return FE__TREE_HEAVY;
-    return mechanism ? FE__TREE_SHORT : FE__TREE_LIGHT;
+    return is_mechanism ? FE__TREE_SHORT : FE__TREE_LIGHT;
 }
 
+// Finds the component of a body, and keeps it if it is a tree that may be solved exactly.
 static void plant(fe_world *w, int32_t body)
 {
     fe__forest *f = &w->joints.forest;
@@ -354,13 +314,10 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (may_be_exact(w, &c, links))
-        keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
-}
-
-static void clear_marks(fe_world *w, int32_t joint)
-{
-    for (int k = 0; k < 2; ++k) w->bodies[w->joint_records[joint].body[k]].flags &= ~(uint32_t)FE__BODY_STARTED;
+    const float locks = w->bodies[links[0].body].lock_bits;
+    for (int32_t i = 1; i < c.bodies; ++i)
+        if (w->bodies[links[i].body].lock_bits != locks) return; // bodies that are locked in different ways
+    if (is_never_singular((uint32_t)locks)) keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)locks);
 }
 
 int32_t fe__find_joint_trees(fe_world *w)
@@ -380,7 +337,8 @@ int32_t fe__find_joint_trees(fe_world *w)
         int32_t body = ends[!is_dynamic(w, ends[0])];
         if (!(w->bodies[body].flags & FE__BODY_STARTED)) plant(w, body);
     }
-    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) clear_marks(w, joint);
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next)
+        for (int k = 0; k < 2; ++k) w->bodies[w->joint_records[joint].body[k]].flags &= ~(uint32_t)FE__BODY_STARTED;
     f->changed = 0;
     return 1;
 }

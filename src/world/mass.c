@@ -1,4 +1,5 @@
-// mass.c - what a body weighs: from its shapes and their densities, or as given.
+// mass.c - mass, centre and inertia of bodies: from their shapes and densities, or as given. Sums over a world's
+// bodies.
 //
 // Called when shapes, type or locks change; the solver reads inverse_mass, inertia, inertia_axes and local_centre. Only
 // dynamic bodies have mass; the centre of the others is their origin, so that a kinematic body turns about the point
@@ -15,12 +16,10 @@
 
 #include <float.h>
 
-// ---- mass -----------------------------------------------------------------------------------------------------------
-
 // A body lighter than this, kg, would have an inverse mass or inertia that floats cannot hold: it counts as weightless.
 // (A sphere of the smallest radius, 1 mm, of water weighs 4e-6 kg.)
 #define LEAST_MASS 1e-9
-// What a weightless dynamic body has instead: 1 kg, and the inertia of a sphere of 1 m, 2/5 m r^2
+// A weightless dynamic body gets 1 kg, and the inertia of a sphere of 1 m, 2/5 m r^2.
 #define DEFAULT_MASS 1.0f
 #define DEFAULT_INERTIA 0.4f
 // Principal moments that differ by less are equal: the gyroscopic torque of the difference is below the solver's
@@ -33,10 +32,8 @@ typedef struct mass_properties {
     fe_quat axes;
 } mass_properties;
 
-// ---- velocities follow the centre ----------------------------------------------------------------------------------
-
-// The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v +
-// w x (R delta): no point of the body changes its motion.
+// A body's velocity is that of its centre of mass. When the centre becomes another material point, its velocity there
+// is v + w x (R delta): no point of the body changes its motion.
 static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 {
     fe_vec3 old = fe__quad_vector(body->local_centre), w = fe__quad_vector(body->spin);
@@ -84,7 +81,8 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
         set_local_centre(world, body, p->centre);
     }
     set_sizes(world, body);
-    if (body->joint_count) world->joints.forest.changed = world->solver.graph_changed = 1; // which trees bear much
+    if (body->joint_count)
+        world->joints.forest.changed = world->solver.graph_changed = 1; // other trees may bear much now
 
     float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z),
           least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
@@ -93,7 +91,7 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
     if (turns_locked || largest - least <= ISOTROPY * largest) body->flags |= FE__BODY_ISOTROPIC;
 }
 
-// ---- sums over shapes ----------------------------------------------------------------------------------------------
+// ---- mass of the shapes ---------------------------------------------------------------------------------------------
 
 static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
 
@@ -130,12 +128,6 @@ static void add_shape(fe__tensor *sum, const fe__shape *shape, const fe__mass *m
     }
 }
 
-static mass_properties weightless(void)
-{
-    return (
-        mass_properties){DEFAULT_MASS, {0, 0, 0}, {DEFAULT_INERTIA, DEFAULT_INERTIA, DEFAULT_INERTIA}, fe__identity()};
-}
-
 static mass_properties combine(const fe_world *world, const fe__body *body, double total, fe_dvec3 moment)
 {
     fe_vec3 centre = fe__narrow(fe__dscale(1.0 / total, moment));
@@ -166,13 +158,17 @@ static mass_properties from_shapes(const fe_world *world, const fe__body *body)
         heavy += 1;
         only = shape;
     }
-    if (total < LEAST_MASS) return weightless();
+    if (total < LEAST_MASS)
+        return (mass_properties){DEFAULT_MASS,
+                                 {0, 0, 0},
+                                 {DEFAULT_INERTIA, DEFAULT_INERTIA, DEFAULT_INERTIA},
+                                 fe__identity()};
     if (heavy > 1) return combine(world, body, total, moment);
     fe__mass mass = shape_mass(only); // exactly the form's
     return (mass_properties){mass.mass, fe__narrow(centre_of(only, &mass)), mass.inertia, axes_of(only, &mass)};
 }
 
-// ---- the interface -------------------------------------------------------------------------------------------------
+// ---- changes --------------------------------------------------------------------------------------------------------
 
 void fe__body_update_mass(fe_world *world, int32_t index)
 {
@@ -190,10 +186,8 @@ void fe__body_update_mass(fe_world *world, int32_t index)
     fe__body_place_anchors(world, index);
 }
 
-// ---- shapes come and go --------------------------------------------------------------------------------------------
-// Only of a dynamic body that weighs what its shapes do is the centre of mass the shapes' affair. Else a level of n
-// shapes on one body is made, changed and taken apart in a time that grows with n, not with its square.
-
+// 1: the centre of mass is that of the shapes. For other bodies a change of shapes is no change of mass, so that a
+// level of n shapes on one body is made, changed and taken apart in a time that grows with n, not with its square.
 static int32_t weighs_its_shapes(const fe__body *body)
 {
     return body->type == FE_BODY_DYNAMIC && !(body->flags & FE__BODY_MASS_GIVEN);
@@ -212,7 +206,7 @@ void fe__body_gain_shape(fe_world *world, int32_t index, int32_t shape)
 
 void fe__body_sizes_changed(fe_world *world, int32_t index)
 {
-    enum { FEW_SHAPES = 16 }; // are looked through at once
+    enum { FEW_SHAPES = 16 }; // so few are summed at once
     fe__body *body = &world->bodies[index];
     if (body->type != FE_BODY_STATIC || body->shape_count <= FEW_SHAPES) {
         fe__body_update_mass(world, index);
@@ -266,7 +260,10 @@ fe_mass_data fe__body_scaled_mass(const fe_world *world, int32_t body, float mas
 
 // ---- mechanics ------------------------------------------------------------------------------------------------------
 
-static int32_t counts(const fe__body *body) { return body->type == FE_BODY_DYNAMIC && body->flags & FE__BODY_ENABLED; }
+static int32_t has_motion(const fe__body *body)
+{
+    return body->type == FE_BODY_DYNAMIC && body->flags & FE__BODY_ENABLED;
+}
 
 // I w, kg m2/s, world axes
 static fe_dvec3 spin_momentum(const fe__body *body)
@@ -286,9 +283,9 @@ void fe__world_energy(const fe_world *world, double *out_kinetic, double *out_po
     double kinetic = 0.0, potential = 0.0, half = 0.5 * (double)world->last_h;
     for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next) {
         const fe__body *b = world->bodies + i;
-        if (!counts(b)) continue;
+        if (!has_motion(b)) continue;
         fe_dvec3 v = fe__widen(fe__quad_vector(b->velocity)), w = fe__widen(fe__quad_vector(b->spin));
-        fe_dvec3 x = fe__dsub((fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}, fe__dscale(half, v));
+        fe_dvec3 x = fe__dsub(fe__centre_of(b), fe__dscale(half, v));
         kinetic += 0.5 * ((double)b->mass * fe__ddot(v, v) + fe__ddot(w, spin_momentum(b)));
         potential -= (double)b->mass * (double)b->gravity_scale * fe__ddot(gravity, x);
     }
@@ -301,9 +298,9 @@ void fe__world_momentum(const fe_world *world, fe_dvec3 about, fe_dvec3 *out_lin
     fe_dvec3 linear = {0.0, 0.0, 0.0}, angular = {0.0, 0.0, 0.0};
     for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next) {
         const fe__body *b = world->bodies + i;
-        if (!counts(b)) continue;
+        if (!has_motion(b)) continue;
         fe_dvec3 p = fe__dscale((double)b->mass, fe__widen(fe__quad_vector(b->velocity)));
-        fe_dvec3 arm = fe__dsub((fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}, about);
+        fe_dvec3 arm = fe__dsub(fe__centre_of(b), about);
         linear = fe__dadd(linear, p);
         angular = fe__dadd(angular, fe__dadd(fe__dcross(arm, p), spin_momentum(b)));
     }
@@ -311,6 +308,7 @@ void fe__world_momentum(const fe_world *world, fe_dvec3 about, fe_dvec3 *out_lin
     *out_angular = angular;
 }
 
+// Extends the box by a shape's. found: 0: it is empty yet. Returns whether it holds any
 static int32_t add_bounds(const fe_world *world, int32_t shape, int32_t found, fe__bounds *all)
 {
     const fe__form *form = &world->shapes[shape].form;

@@ -1,4 +1,4 @@
-// proxies.c - see proxies.h.
+// proxies.c - boxes of shapes, and their places in the trees and in the list of planes.
 #include "world/proxies.h"
 
 #include "collision/form/hull.h"
@@ -6,16 +6,16 @@
 
 // A box in a tree is larger than its shape by half the speculative distance, for shapes no further apart than that must
 // have a pair, and by a share of its size, so that a body may move a while before its tree changes: larger ones move
-// further before it matters. More of it makes more pairs that never touch: in a heap of mixed bodies a share of 0.12
-// makes 1.2 times as many, and costs 3 to 11 % of a step.
-#define FAT_SHARE 0.05 // of the largest half extent
+// further before it matters. A larger share makes more pairs that never touch: in a heap of mixed bodies a share of
+// 0.12 makes 1.2 times as many, and costs 3 to 11 % of a step.
+#define FAT_SHARE 0.05 // times the largest half extent
 #define FAT_MOST 0.05  // m
-// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have
-// a pair before.
+// The box also reaches to where the body will be after so many steps at its velocity: pairs must exist before the
+// shapes meet.
 #define STEPS_AHEAD 2.0f
 #define FIRST_DT (1.0f / 60.0f) // s, before the first step
 
-// ---- bounds --------------------------------------------------------------------------------------------------------
+// ---- bounds ---------------------------------------------------------------------------------------------------------
 
 static fe__bounds grown(fe__bounds b, double margin)
 {
@@ -33,11 +33,12 @@ fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
     return bounds_of(world->shapes + index, margin);
 }
 
+// Extends a box by the way of the body in so many steps.
 static fe__bounds swept(const fe_world *world, const fe__shape *shape, fe__bounds b, float steps)
 {
     const fe__body *body = world->bodies + shape->body;
     double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
-    fe_dvec3 travel = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
+    fe_dvec3 travel = fe__dscale(dt, fe__widen(fe__quad_vector(body->velocity)));
     b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(travel.x, 0.0), fe__mind(travel.y, 0.0), fe__mind(travel.z, 0.0)});
     b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(travel.x, 0.0), fe__maxd(travel.y, 0.0), fe__maxd(travel.z, 0.0)});
     return b;
@@ -55,25 +56,26 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     return grown(b, (double)half_gap(world) + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
-// ---- broad phase ---------------------------------------------------------------------------------------------------
+// ---- broad phase ----------------------------------------------------------------------------------------------------
 
-static fe__tree *tree_of_type(fe_world *world, int32_t body_type)
+static const fe__tree *tree_containing(const fe_world *world, const fe__shape *shape)
 {
-    return body_type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+    return world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
 }
 
 static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
 {
-    return tree_of_type(world, world->bodies[shape->body].type);
+    return world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
 }
 
 int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra)
 {
     fe__memory *memory = &world->memory;
     int32_t limit = world->shape_capacity;
+    fe__tree *tree = body_type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
     return FE_RESERVE(memory, world->moved, world->moved_capacity, limit) &&
            FE_RESERVE(memory, world->planes, world->plane_capacity, (int64_t)world->plane_count + extra) &&
-           fe__tree_reserve(tree_of_type(world, body_type), memory, limit, extra);
+           fe__tree_reserve(tree, memory, limit, extra);
 }
 
 void fe__shape_mark_moved(fe_world *world, int32_t index)
@@ -102,8 +104,7 @@ void fe__shape_enter(fe_world *world, int32_t index)
 int32_t fe__shape_is_held(const fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
-    const fe__tree *tree =
-        world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+    const fe__tree *tree = tree_containing(world, shape);
     double margin = (double)half_gap(world);
     fe__bounds rough = swept(world, shape, grown(fe__form_rough_bounds(&shape->form, &shape->pose), margin), 1.0f);
     int32_t held = fe__tree_holds(tree, index, &rough);
@@ -112,7 +113,7 @@ int32_t fe__shape_is_held(const fe_world *world, int32_t index)
     return fe__tree_holds(tree, index, &tight);
 }
 
-// FE__SHAPE_MOVED stays: the list still names the slot, and whoever gets it next is in the list already.
+// FE__SHAPE_MOVED stays: the list still names the slot, and the next shape in it is in the list already.
 void fe__shape_leave(fe_world *world, int32_t index)
 {
     fe__shape *shape = &world->shapes[index];
@@ -149,28 +150,17 @@ int32_t fe__plane_comes_near(const fe_world *world, int32_t index, const fe__bou
     return fe__plane_meets_box(&plane->form, &plane->pose, box, (double)half_gap(world));
 }
 
-// ---- of pairs ------------------------------------------------------------------------------------------------------
-static const fe__tree *home_of(const fe_world *w, const fe__shape *shape)
+int32_t fe__boxes_part(const fe_world *world, const fe__pair *p)
 {
-    return w->bodies[shape->body].type == FE_BODY_STATIC ? &w->static_tree : &w->moving_tree;
-}
-
-static int32_t parts(const fe__bounds *a, const fe__bounds *b)
-{
-    return a->high.x < b->low.x || b->high.x < a->low.x || a->high.y < b->low.y || b->high.y < a->low.y ||
-           a->high.z < b->low.z || b->high.z < a->low.z;
-}
-
-int32_t fe__boxes_part(const fe_world *w, const fe__pair *p)
-{
-    fe__bounds a, b;
-    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
-    const fe__tree *home_x = home_of(w, x), *home_y = home_of(w, y);
-    int32_t in_trees = (x->flags & y->flags & FE__SHAPE_IN_TREE) != 0;
-    if (in_trees && home_x == home_y) return fe__tree_parts(home_x, p->shape_a, p->shape_b);
-    if (x->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_x, p->shape_a, &a);
-    if (y->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_y, p->shape_b, &b);
-    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_a, &b);
-    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_b, &a);
-    return parts(&a, &b);
+    fe__bounds box_a, box_b;
+    const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
+    const fe__tree *tree_a = tree_containing(world, a), *tree_b = tree_containing(world, b);
+    int32_t in_trees = (a->flags & b->flags & FE__SHAPE_IN_TREE) != 0;
+    if (in_trees && tree_a == tree_b) return fe__tree_parts(tree_a, p->shape_a, p->shape_b);
+    if (a->flags & FE__SHAPE_IN_TREE) fe__tree_get(tree_a, p->shape_a, &box_a);
+    if (b->flags & FE__SHAPE_IN_TREE) fe__tree_get(tree_b, p->shape_b, &box_b);
+    if (a->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(world, p->shape_a, &box_b);
+    if (b->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(world, p->shape_b, &box_a);
+    return box_a.high.x < box_b.low.x || box_b.high.x < box_a.low.x || box_a.high.y < box_b.low.y ||
+           box_b.high.y < box_a.low.y || box_a.high.z < box_b.low.z || box_b.high.z < box_a.low.z;
 }

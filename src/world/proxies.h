@@ -8,19 +8,18 @@
 #include "world/world.h"
 
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
-int32_t fe__shape_is_held(const fe_world *world,
-                          int32_t shape); // by its box in the tree, with what it may reach in a step
-// Does the box of another shape, as a tree holds it, come near the plane? Planes are in no tree, and grow here
+// 1: its box in the tree holds the shape, and all that it may reach in a step
+int32_t fe__shape_is_held(const fe_world *world, int32_t shape);
+// 1: the box of another shape, as a tree holds it, comes near the plane. Planes are in no tree, and grow here.
 int32_t fe__plane_comes_near(const fe_world *world, int32_t plane, const fe__bounds *box);
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the trees hold them
 
-// Puts the shape into its tree or list, takes it out, has it look for pairs. Room was reserved by fe__reserve_proxies.
 int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra); // 0: no memory
-void fe__shape_enter(fe_world *world, int32_t shape);
+void fe__shape_enter(fe_world *world, int32_t shape); // into its tree or list, after fe__reserve_proxies
 void fe__shape_leave(fe_world *world, int32_t shape);
-void fe__shape_touch(fe_world *world, int32_t shape);       // its pose or form is new: a new box, new pairs
+void fe__shape_touch(fe_world *world, int32_t shape);       // after a change of pose or form: a new box, new pairs
 void fe__shape_mark_moved(fe_world *world, int32_t shape);  // looks for pairs in the next step
-void fe__body_stretch_boxes(fe_world *world, int32_t body); // boxes that no longer hold what the next step may reach
-int32_t fe__boxes_part(const fe_world *world, const fe__pair *pair);
+void fe__body_stretch_boxes(fe_world *world, int32_t body); // renews boxes that no longer hold all that it may reach
+int32_t fe__boxes_part(const fe_world *world, const fe__pair *pair); // 1: they no longer meet
 
 #endif

@@ -1,6 +1,7 @@
-// shape.c - the life of shapes.
+// shape.c - the life of shapes and of the parts of compounds.
 //
-// Called by the API layer with checked arguments, between steps.
+// Called by the API layer with checked arguments, between steps. A change ends pairs where it must, and marks what the
+// next step has to look at again.
 #include "world/shape.h"
 
 #include "world/asset_users.h"
@@ -13,11 +14,131 @@
 
 #include <string.h>
 
-// ---- shapes ---------------------------------------------------------------------------------------------------------
+// ---- parts ----------------------------------------------------------------------------------------------------------
 
-// ---- room ----------------------------------------------------------------------------------------------------------
+void fe__shape_list(fe_world *world, int32_t index, int32_t behind)
+{
+    fe__shape *shape = &world->shapes[index];
+    fe__body *body = &world->bodies[shape->body];
+    shape->previous = behind >= 0 ? behind : body->last_shape;
+    shape->next = -1;
+    if (shape->previous >= 0) {
+        shape->next = world->shapes[shape->previous].next;
+        world->shapes[shape->previous].next = index;
+    } else {
+        body->first_shape = index;
+    }
+    if (shape->next >= 0)
+        world->shapes[shape->next].previous = index;
+    else
+        body->last_shape = index;
+    body->shape_count += 1;
+    world->shape_count += 1;
+}
 
-// `records`: that are to be made
+void fe__shape_unlist(fe_world *world, int32_t index)
+{
+    const fe__shape *shape = &world->shapes[index];
+    fe__body *body = &world->bodies[shape->body];
+    if (shape->previous >= 0)
+        world->shapes[shape->previous].next = shape->next;
+    else
+        body->first_shape = shape->next;
+    if (shape->next >= 0)
+        world->shapes[shape->next].previous = shape->previous;
+    else
+        body->last_shape = shape->previous;
+    body->shape_count -= 1;
+}
+
+static const fe__compound *compound_of(const fe_world *world, const fe__form *form)
+{
+    return &fe__store_asset(world->store, form->field)->compound;
+}
+
+int32_t fe__part_count(const fe_world *world, const fe__form *form)
+{
+    return fe__form_is_of_parts(form) ? compound_of(world, form)->count : 0;
+}
+
+// Notes whether the shape's frame is the body's.
+static void note_centred(fe__shape *shape)
+{
+    fe_vec3 p = shape->local_position;
+    fe_quat q = shape->local_rotation;
+    int32_t is_centred =
+        p.x == 0.0f && p.y == 0.0f && p.z == 0.0f && q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 1.0f;
+    shape->flags &= ~(uint32_t)FE__SHAPE_CENTRED;
+    if (is_centred) shape->flags |= FE__SHAPE_CENTRED;
+}
+
+// Turns a vector from the frame of the whole into that of the part.
+static fe_vec3 turn_back(const fe__compound_part *part, fe_vec3 v)
+{
+    fe_quat q = part->rotation;
+    return q.x == 0.0f && q.y == 0.0f && q.z == 0.0f ? v : fe__rotate_back(q, v);
+}
+
+// Gives a part all that is set on the whole.
+static void follow(fe__shape *shape, const fe__shape *whole, const fe__compound_part *part)
+{
+    const uint32_t shared = FE__SHAPE_TRIGGER | FE__SHAPE_JUDGED | FE__SHAPE_ONE_WAY;
+    shape->flags = (shape->flags & ~shared) | (whole->flags & shared);
+    shape->layer = whole->layer, shape->mask = whole->mask, shape->group = whole->group;
+    shape->events = whole->events;
+    shape->user_data = whole->user_data;
+    shape->density = part->density >= 0.0f ? part->density : whole->density;
+    shape->material = part->own_material ? part->material : whole->material;
+    shape->surface_velocity = turn_back(part, whole->surface_velocity);
+    shape->one_way = turn_back(part, whole->one_way);
+    shape->local_position = part->position;
+    shape->local_rotation = part->rotation;
+    // a part of a compound in the body's frame stands as a shape in that frame would, bit for bit
+    if (!(whole->flags & FE__SHAPE_CENTRED)) {
+        fe__pose frame = {fe__widen(whole->local_position), whole->local_rotation};
+        fe__pose placed = fe__compose(&frame, part->position, part->rotation);
+        shape->local_position = fe__narrow(placed.position);
+        shape->local_rotation = placed.rotation;
+    }
+    note_centred(shape);
+}
+
+void fe__parts_follow(fe_world *world, int32_t whole)
+{
+    const fe__shape *shape = &world->shapes[whole];
+    if (!fe__form_is_of_parts(&shape->form)) return;
+    const fe__compound_part *parts = compound_of(world, &shape->form)->parts;
+    for (int32_t i = fe__next_of_whole(world, whole, whole); i >= 0; i = fe__next_of_whole(world, whole, i))
+        follow(&world->shapes[i], shape, parts + fe__part_of_serial(world->shapes[i].serial));
+}
+
+void fe__parts_create(fe_world *world, int32_t whole)
+{
+    const fe__shape *compound_shape = &world->shapes[whole];
+    const fe__compound *compound = compound_of(world, &compound_shape->form);
+    for (int32_t number = 0, last = whole; number < compound->count; ++number) {
+        int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->shape_ids));
+        fe__id_pool_hide(&world->shape_ids, index);
+        fe__shape *shape = &world->shapes[index];
+        uint32_t listed = shape->flags & FE__SHAPE_MOVED;
+        memset(shape, 0, sizeof *shape);
+        shape->flags = listed;
+        shape->form = compound->parts[number].form;
+        shape->body = compound_shape->body;
+        shape->body_serial = compound_shape->body_serial;
+        shape->serial = compound_shape->serial + (uint64_t)number + 1;
+        shape->parent = whole;
+        follow(shape, compound_shape, compound->parts + number);
+        fe__shape_list(world, index, last);
+        fe__shape_place(world, index);
+        last = index;
+    }
+    world->part_count += compound->count;
+}
+
+// ---- creation and destruction ---------------------------------------------------------------------------------------
+
+// `records`: how many are to be made
 static fe_result reserve_shapes(fe_world *world, int32_t body, const fe__form *form, int32_t records)
 {
     int32_t proxies = fe__maxi(fe__part_count(world, form), 1);
@@ -31,13 +152,9 @@ static fe_result reserve_shapes(fe_world *world, int32_t body, const fe__form *f
 
 static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
 {
-    fe_quat q = fe__unit_rotation(rotation);
-    int32_t centred = position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && q.x == 0.0f && q.y == 0.0f &&
-                      q.z == 0.0f && q.w == 1.0f;
     shape->local_position = position;
-    shape->local_rotation = q;
-    shape->flags &= ~(uint32_t)FE__SHAPE_CENTRED;
-    if (centred) shape->flags |= FE__SHAPE_CENTRED;
+    shape->local_rotation = fe__unit_rotation(rotation);
+    note_centred(shape);
 }
 
 // A pair may be found and hit within one step: the step must know before that hits are asked for.
@@ -46,15 +163,13 @@ static void note_events(fe_world *world, uint32_t events)
     if (events & FE_SHAPE_EVENTS_HIT) world->wants_hits = 1;
 }
 
-// ---- of the shape and of its parts ---------------------------------------------------------------------------------
-
 static void create_parts(fe_world *world, int32_t index)
 {
     fe__parts_create(world, index);
     for (int32_t i = index; (i = fe__next_of_whole(world, index, i)) >= 0;) fe__shape_take_asset(world, i);
 }
 
-// The last first: it is the first in the list of those who use its asset.
+// The last part goes first: it is the first in the list of the users of its asset.
 static void destroy_parts(fe_world *world, int32_t index)
 {
     int32_t last = index;
@@ -81,13 +196,6 @@ static void mark_moved(fe_world *world, int32_t index)
 {
     for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_mark_moved(world, i);
 }
-
-static int32_t is_in(const fe_world *world, const fe__pair *p, int32_t index)
-{
-    return fe__is_of_whole(world, p->shape_a, index) || fe__is_of_whole(world, p->shape_b, index);
-}
-
-// ---- birth and death -----------------------------------------------------------------------------------------------
 
 // A sleeping body goes on sleeping: a level may be built asleep.
 int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form)
@@ -125,25 +233,16 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     return index;
 }
 
-static void drop_pairs(fe_world *world, int32_t index)
+// Destroys the shape's pairs that have one of the flags; 0: all of them.
+static void drop_pairs(fe_world *world, int32_t index, uint32_t flags)
 {
     int32_t body = world->shapes[index].body;
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
         next = fe__next_pair(world, pair, body);
         const fe__pair *p = &world->pairs[pair];
-        if (p->flags & FE__PAIR_PATCH) continue;
-        if (is_in(world, p, index)) fe__pair_destroy(world, pair);
-    }
-}
-
-// The pair filter judges them anew
-static void drop_denied(fe_world *world, int32_t index)
-{
-    int32_t body = world->shapes[index].body;
-    for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
-        next = fe__next_pair(world, pair, body);
-        const fe__pair *p = &world->pairs[pair];
-        if (p->flags & FE__PAIR_DENIED && is_in(world, p, index)) fe__pair_destroy(world, pair);
+        if (p->flags & FE__PAIR_PATCH || (flags && !(p->flags & flags))) continue;
+        if (fe__is_of_whole(world, p->shape_a, index) || fe__is_of_whole(world, p->shape_b, index))
+            fe__pair_destroy(world, pair);
     }
 }
 
@@ -151,7 +250,7 @@ void fe__shape_destroy(fe_world *world, int32_t index)
 {
     int32_t body = world->shapes[index].body;
     fe__body_disturb(world, body);
-    drop_pairs(world, index);
+    drop_pairs(world, index, 0);
     leave(world, index);
     destroy_parts(world, index);
     fe__shape_unlist(world, index);
@@ -169,24 +268,13 @@ void fe__shape_forget(fe_world *world, int32_t index)
     world->part_count -= is_part;
 }
 
-// ---- change --------------------------------------------------------------------------------------------------------
-
-static void exchange_asset(fe_world *world, int32_t index, const fe__form *before)
-{
-    fe__shape *shape = &world->shapes[index];
-    fe__form now = shape->form;
-    if (fe__form_has_asset(before) && fe__form_has_asset(&now) && before->field == now.field) return;
-    shape->form = *before;
-    fe__shape_release_asset(world, index);
-    shape->form = now;
-    fe__shape_take_asset(world, index);
-}
+// ---- changes --------------------------------------------------------------------------------------------------------
 
 // The shape's pairs end and are found anew: a manifold of the old form means nothing on the new one.
 static void begin_change(fe_world *world, int32_t index)
 {
     fe__body_disturb(world, world->shapes[index].body);
-    drop_pairs(world, index);
+    drop_pairs(world, index, 0);
     leave(world, index);
 }
 
@@ -204,9 +292,12 @@ fe_result fe__shape_set_form(fe_world *world, int32_t index, const fe__form *for
     if (reserved != FE_OK) return reserved;
     begin_change(world, index);
     destroy_parts(world, index);
-    fe__form before = world->shapes[index].form;
-    world->shapes[index].form = *form;
-    if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
+    // an asset that stays is not released, so that its list of users stays too
+    fe__form *own = &world->shapes[index].form;
+    int32_t has_same_asset = fe__form_has_asset(own) && fe__form_has_asset(form) && own->field == form->field;
+    if (!has_same_asset) fe__shape_release_asset(world, index);
+    *own = *form;
+    if (!has_same_asset) fe__shape_take_asset(world, index);
     if (fe__form_is_of_parts(form)) create_parts(world, index);
     end_change(world, index);
     return FE_OK;
@@ -232,7 +323,7 @@ void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32
     shape->group = group;
     fe__parts_follow(world, index);
     fe__body_refilter(world, shape->body);
-    drop_denied(world, index);
+    drop_pairs(world, index, FE__PAIR_DENIED); // the pair filter judges them anew
     mark_moved(world, index);
 }
 
@@ -253,11 +344,11 @@ void fe__world_judge_anew(fe_world *world)
     }
 }
 
-// Every pair of the shape is found anew
-static void renew(fe_world *world, int32_t index)
+// Ends every pair of the shape; the next step finds them anew.
+static void renew_pairs(fe_world *world, int32_t index)
 {
     fe__body_disturb(world, world->shapes[index].body);
-    drop_pairs(world, index);
+    drop_pairs(world, index, 0);
     fe__parts_follow(world, index);
     mark_moved(world, index);
 }
@@ -267,7 +358,7 @@ void fe__shape_set_judged(fe_world *world, int32_t index, int32_t judged)
     fe__shape *shape = &world->shapes[index];
     if (judged == ((shape->flags & FE__SHAPE_JUDGED) != 0)) return;
     shape->flags ^= FE__SHAPE_JUDGED;
-    renew(world, index);
+    renew_pairs(world, index);
 }
 
 void fe__shape_set_one_way(fe_world *world, int32_t index, int32_t one_way, const fe_vec3 *direction)
@@ -275,18 +366,15 @@ void fe__shape_set_one_way(fe_world *world, int32_t index, int32_t one_way, cons
     fe__shape *shape = &world->shapes[index];
     if (direction) shape->one_way = *direction;
     shape->flags = one_way ? shape->flags | FE__SHAPE_ONE_WAY : shape->flags & ~(uint32_t)FE__SHAPE_ONE_WAY;
-    renew(world, index);
+    renew_pairs(world, index);
 }
 
 void fe__shape_set_trigger(fe_world *world, int32_t index, int32_t trigger)
 {
     fe__shape *shape = &world->shapes[index];
     if (trigger == ((shape->flags & FE__SHAPE_TRIGGER) != 0)) return;
-    fe__body_disturb(world, shape->body);
-    drop_pairs(world, index);
     shape->flags ^= FE__SHAPE_TRIGGER;
-    fe__parts_follow(world, index);
-    mark_moved(world, index);
+    renew_pairs(world, index);
 }
 
 void fe__shape_set_density(fe_world *world, int32_t index, float density)
@@ -297,7 +385,7 @@ void fe__shape_set_density(fe_world *world, int32_t index, float density)
     fe__body_densities_changed(world, world->shapes[index].body);
 }
 
-// What rests by friction may start to slide, what lies on a belt to move.
+// A body that rests by friction may start to slide, one that lies on a belt to move.
 static void renew_surface(fe_world *world, int32_t index)
 {
     fe__parts_follow(world, index);
@@ -330,140 +418,7 @@ void fe__shape_material_changed(fe_world *world, int32_t index)
     note_events(world, world->shapes[index].events);
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
-        if (is_in(world, p, index)) fe__pair_mix(world, pair);
+        if (fe__is_of_whole(world, p->shape_a, index) || fe__is_of_whole(world, p->shape_b, index))
+            fe__pair_mix(world, pair);
     }
-}
-
-// ---- parts ----------------------------------------------------------------------------------------------------------
-
-// ---- the list of the body ------------------------------------------------------------------------------------------
-
-void fe__shape_list(fe_world *world, int32_t index, int32_t behind)
-{
-    fe__shape *shape = &world->shapes[index];
-    fe__body *body = &world->bodies[shape->body];
-    shape->previous = behind >= 0 ? behind : body->last_shape;
-    shape->next = -1;
-    if (shape->previous >= 0) {
-        shape->next = world->shapes[shape->previous].next;
-        world->shapes[shape->previous].next = index;
-    } else {
-        body->first_shape = index;
-    }
-    if (shape->next >= 0)
-        world->shapes[shape->next].previous = index;
-    else
-        body->last_shape = index;
-    body->shape_count += 1;
-    world->shape_count += 1;
-}
-
-void fe__shape_unlist(fe_world *world, int32_t index)
-{
-    const fe__shape *shape = &world->shapes[index];
-    fe__body *body = &world->bodies[shape->body];
-    if (shape->previous >= 0)
-        world->shapes[shape->previous].next = shape->next;
-    else
-        body->first_shape = shape->next;
-    if (shape->next >= 0)
-        world->shapes[shape->next].previous = shape->previous;
-    else
-        body->last_shape = shape->previous;
-    body->shape_count -= 1;
-}
-
-// ---- what they take over -------------------------------------------------------------------------------------------
-
-static const fe__compound *compound_of(const fe_world *world, const fe__form *form)
-{
-    return &fe__store_asset(world->store, form->field)->compound;
-}
-
-int32_t fe__part_count(const fe_world *world, const fe__form *form)
-{
-    return fe__form_is_of_parts(form) ? compound_of(world, form)->count : 0;
-}
-
-static int32_t is_identity(fe_vec3 p, fe_quat q)
-{
-    return p.x == 0.0f && p.y == 0.0f && p.z == 0.0f && q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 1.0f;
-}
-
-// A part of a compound that stands in the body's frame stands as a shape of that frame would, bit for bit.
-static void place_part(fe__shape *shape, const fe__shape *whole, const fe__compound_part *part)
-{
-    if (whole->flags & FE__SHAPE_CENTRED) {
-        shape->local_position = part->position;
-        shape->local_rotation = part->rotation;
-    } else {
-        fe__pose frame = {fe__widen(whole->local_position), whole->local_rotation};
-        fe__pose placed = fe__compose(&frame, part->position, part->rotation);
-        shape->local_position = fe__narrow(placed.position);
-        shape->local_rotation = placed.rotation;
-    }
-    shape->flags &= ~(uint32_t)FE__SHAPE_CENTRED;
-    if (is_identity(shape->local_position, shape->local_rotation)) shape->flags |= FE__SHAPE_CENTRED;
-}
-
-// From the frame of the whole into that of the part
-static fe_vec3 turned_back(const fe__compound_part *part, fe_vec3 v)
-{
-    fe_quat q = part->rotation;
-    return q.x == 0.0f && q.y == 0.0f && q.z == 0.0f ? v : fe__rotate_back(q, v);
-}
-
-static void follow(fe__shape *shape, const fe__shape *whole, const fe__compound_part *part)
-{
-    const uint32_t shared = FE__SHAPE_TRIGGER | FE__SHAPE_JUDGED | FE__SHAPE_ONE_WAY;
-    shape->flags = (shape->flags & ~shared) | (whole->flags & shared);
-    shape->layer = whole->layer, shape->mask = whole->mask, shape->group = whole->group;
-    shape->events = whole->events;
-    shape->user_data = whole->user_data;
-    shape->density = part->density >= 0.0f ? part->density : whole->density;
-    shape->material = part->own_material ? part->material : whole->material;
-    shape->surface_velocity = turned_back(part, whole->surface_velocity);
-    shape->one_way = turned_back(part, whole->one_way);
-    place_part(shape, whole, part);
-}
-
-void fe__parts_follow(fe_world *world, int32_t whole)
-{
-    const fe__shape *w = &world->shapes[whole];
-    if (!fe__form_is_of_parts(&w->form)) return;
-    const fe__compound_part *parts = compound_of(world, &w->form)->parts;
-    for (int32_t i = fe__next_of_whole(world, whole, whole); i >= 0; i = fe__next_of_whole(world, whole, i))
-        follow(&world->shapes[i], w, parts + fe__part_of_serial(world->shapes[i].serial));
-}
-
-// ---- life ----------------------------------------------------------------------------------------------------------
-
-static int32_t create(fe_world *world, int32_t whole, int32_t number, const fe__compound_part *part)
-{
-    int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->shape_ids));
-    fe__id_pool_hide(&world->shape_ids, index);
-    fe__shape *shape = &world->shapes[index];
-    const fe__shape *w = &world->shapes[whole];
-    uint32_t listed = shape->flags & FE__SHAPE_MOVED;
-    memset(shape, 0, sizeof *shape);
-    shape->flags = listed;
-    shape->form = part->form;
-    shape->body = w->body;
-    shape->body_serial = w->body_serial;
-    shape->serial = w->serial + (uint64_t)number + 1;
-    shape->parent = whole;
-    follow(shape, w, part);
-    return index;
-}
-
-void fe__parts_create(fe_world *world, int32_t whole)
-{
-    const fe__compound *compound = compound_of(world, &world->shapes[whole].form);
-    for (int32_t number = 0, last = whole; number < compound->count; ++number) {
-        int32_t index = create(world, whole, number, compound->parts + number);
-        fe__shape_list(world, index, last);
-        fe__shape_place(world, index);
-        last = index;
-    }
-    world->part_count += compound->count;
 }

@@ -1,23 +1,22 @@
-// sleep.c - who is awake: dense lists of bodies and pairs, islands that fall asleep and wake together.
+// sleep.c - dense lists of the bodies, pairs and joints that are awake; islands that fall asleep and wake together.
 //
-// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could
-// show is sorted by creation.
+// A pair or joint is in its list while one of its bodies is. Results do not depend on the order of the lists, because
+// all that could show is sorted by creation.
 #include "world/sleep.h"
 
 #include "world/joint.h"
 #include "world/contact.h"
 #include "world/body.h"
 
-// Bodies whose state changed since the last step's events: each once, whatever happens in between
-int32_t fe__world_rests(const fe_world *world)
+int32_t fe__world_rests(const fe_world *w)
 {
-    const fe_world *w = world;
     return (w->awake_body_count | w->awake_pair_count | w->awake_joint_count | w->moved_count | w->owed_count |
             w->first_changed | w->disturbed_count | w->pair_event_count | w->body_event_count | w->hit_event_count |
             w->joint_event_count) == 0;
 }
 
-static void stir(fe_world *world, int32_t index)
+// Lists a body that woke or fell asleep since the last step's events: once, whatever happens in between.
+static void list_disturbed(fe_world *world, int32_t index)
 {
     if (world->bodies[index].flags & FE__BODY_DISTURBED) return;
     world->bodies[index].flags |= FE__BODY_DISTURBED;
@@ -36,7 +35,7 @@ void fe__body_awaken_alone(fe_world *world, int32_t index)
     for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index))
         fe__joint_awaken(world, joint);
     world->solver.graph_changed = 1;
-    stir(world, index);
+    list_disturbed(world, index);
 }
 
 void fe__body_retire(fe_world *world, int32_t index)
@@ -46,7 +45,7 @@ void fe__body_retire(fe_world *world, int32_t index)
     world->awake_bodies[place] = last;
     world->bodies[last].awake_index = place;
     body->awake_index = body->line = body->island = -1;
-    body->flags &= ~(uint32_t)FE__BODY_BURDENED; // its next step is not the one after this
+    body->flags &= ~(uint32_t)FE__BODY_BURDENED; // the next step that it takes is not the one after this
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) {
         const fe__pair *p = world->pairs + pair;
         int32_t other = p->body_a == index ? p->body_b : p->body_a;
@@ -55,9 +54,10 @@ void fe__body_retire(fe_world *world, int32_t index)
     for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index))
         fe__joint_retire(world, joint);
     world->solver.graph_changed = 1;
-    stir(world, index);
+    list_disturbed(world, index);
 }
 
+// The other body of a pair or joint in the constraint graph, if it is dynamic. -1: it is not, or not in the graph
 static int32_t dynamic_neighbour(const fe_world *world, int32_t pair, int32_t body)
 {
     const fe__pair *p = world->pairs + pair;
@@ -71,23 +71,22 @@ static int32_t joined_dynamic(const fe_world *world, int32_t joint, int32_t body
     return world->joints.joints[joint].colour >= 0 && world->bodies[other].type == FE_BODY_DYNAMIC ? other : -1;
 }
 
-static void awaken_asleep(fe_world *world, int32_t body)
-{
-    if (body >= 0 && world->bodies[body].awake_index < 0) fe__body_awaken_alone(world, body);
-}
-
-// The list of awake bodies is the queue of the walk: what is woken is appended, and looked at in its turn
 void fe__wake(fe_world *world, int32_t body)
 {
     int32_t next = world->awake_body_count;
     if (world->bodies[body].type == FE_BODY_STATIC) return;
     fe__body_awaken_alone(world, body);
+    // the list of awake bodies is the queue of the walk: bodies that wake are appended, and looked at in their turn
     for (; next < world->awake_body_count; ++next) {
         int32_t at = world->awake_bodies[next];
-        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at))
-            awaken_asleep(world, dynamic_neighbour(world, pair, at));
-        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
-            awaken_asleep(world, joined_dynamic(world, joint, at));
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
+            int32_t other = dynamic_neighbour(world, pair, at);
+            if (other >= 0 && world->bodies[other].awake_index < 0) fe__body_awaken_alone(world, other);
+        }
+        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at)) {
+            int32_t other = joined_dynamic(world, joint, at);
+            if (other >= 0 && world->bodies[other].awake_index < 0) fe__body_awaken_alone(world, other);
+        }
     }
 }
 
@@ -119,7 +118,8 @@ static int32_t is_driving(const fe_world *world, int32_t body, int32_t low)
     return b->type == FE_BODY_KINEMATIC && b->awake_index >= 0 && b->awake_index < low;
 }
 
-// does a kinematic body that is awake push it or pull at it, other than those from `low` on, which fall asleep with it?
+// 1: a kinematic body that is awake pushes it or pulls at it, other than those from `low` on, which fall asleep with
+// it.
 static int32_t is_driven(const fe_world *world, int32_t body, int32_t low)
 {
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
@@ -148,7 +148,7 @@ void fe__body_fall_asleep(fe_world *world, int32_t index)
     fe__body_retire(world, index);
 }
 
-// An awake body joins the island that gathers. It notes its place until then, so that fe__put_to_sleep can undo the
+// Moves an awake body to the island that gathers. Its place until then is noted, so that fe__put_to_sleep can undo the
 // exchange.
 static void gather(fe_world *world, int32_t body, int32_t *low)
 {
@@ -157,8 +157,8 @@ static void gather(fe_world *world, int32_t body, int32_t *low)
     swap_places(world, world->bodies[body].awake_index, --*low);
 }
 
-// Gathers the island of an awake body at the end of the list, which grows downwards as its queue: from *low on. 0: one
-// of those gathered may not sleep
+// Gathers the island of an awake body at the end of the list, from *low on, which grows downwards as the queue of the
+// walk. 0: one of the bodies gathered may not sleep
 static int32_t gather_island(fe_world *world, int32_t body, int32_t *low)
 {
     int32_t end = *low;
@@ -175,12 +175,12 @@ static int32_t gather_island(fe_world *world, int32_t body, int32_t *low)
     return 1;
 }
 
-// The order of the list shows in a snapshot. Where nobody falls asleep the exchanges are undone, the last one first.
 fe_result fe__put_to_sleep(fe_world *world, int32_t body)
 {
     int32_t low = world->awake_body_count;
     if (world->bodies[body].awake_index < 0) return FE_OK;
     int32_t may_sleep = gather_island(world, body, &low);
+    // A snapshot shows the order of the list: if the island stays awake the exchanges are undone, the last one first.
     for (int32_t place = low; place < world->awake_body_count; ++place) {
         fe__body *gathered = world->bodies + world->awake_bodies[place];
         if (!may_sleep) swap_places(world, place, gathered->place_before);

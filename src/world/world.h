@@ -19,8 +19,6 @@
 #include "store/store.h"
 #include "world/clusters.h"
 
-// ---- world ----------------------------------------------------------------------------------------------------------
-
 // Records that world/contact.h and world/joint.h define.
 typedef struct fe__pair fe__pair;
 typedef struct fe__points fe__points;
@@ -40,26 +38,27 @@ typedef struct fe__asset_use {
     int32_t first_user; // shapes, threaded through fe__shape.next_user
 } fe__asset_use;
 
+// clang-format off
 struct fe_world {
     fe__memory memory;
     fe__workers workers;
     fe__owner owner;
     uint64_t user_data;
-    int32_t number; // in its handles
+    int32_t number; // the world's number, part of every handle
 
-    struct fe_history *first_history; // those that keep frames of this world (snapshot/history.h)
-    const struct fe_batch *batch;     // whose it is, or NULL: nobody else's (batch/batch.h)
+    struct fe_history *first_history; // histories that keep frames of this world (snapshot/history.h)
+    const struct fe_batch *batch;     // the batch that owns the world, and nobody else; NULL: none (batch/batch.h)
 
-    fe_pair_filter pair_filter; // or NULL
+    fe_pair_filter pair_filter; // the host's; NULL: none
     void *pair_filter_user;
-    fe_recorder *recorder; // who notes each call that changes the world, or NULL
+    fe_recorder *recorder;      // notes each call that changes the world; NULL: none
 
     // settings
     fe_vec3 gravity;
     int32_t substeps;
     fe_world_tuning tuning;
-    const fe__kernels *kernels;       // of the SIMD set
-    const fe__mesh_casts *mesh_casts; // likewise
+    const fe__kernels *kernels;       // the SIMD set's
+    const fe__mesh_casts *mesh_casts; // the SIMD set's
     int32_t simd;                     // fe_simd
 
     // records
@@ -70,50 +69,47 @@ struct fe_world {
     int32_t body_capacity, odometer_capacity, drift_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
-    fe_store *store;         // of the assets that shapes have; its own, of its definition, or of whom it is a clone
+    fe_store *store;         // assets of the shapes: its own, its definition's, or that of the world it was cloned from
     fe__store_member member; // in the store's list
-    fe__asset_use *uses;     // by rising asset; they and their number under the store's lock
+    fe__asset_use *uses;     // by rising asset; read and written under the store's lock, as their number is
     int32_t use_count, use_capacity;
-    uint64_t next_serial;                      // of bodies, shapes and joints alike
+    uint64_t next_serial;                      // for bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
-    int32_t static_count, kinematic_count;     // of them
+    int32_t static_count, kinematic_count;     // how many of body_count are static, kinematic
     int32_t shape_count, part_count;           // parts of compounds count among the shapes
 
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
     fe__contact *contacts;
     fe__pair *pairs;
     int32_t contact_capacity, pair_capacity;
-    // of those that have points, by fe__contact.points; see contact_solver.h
+    // points by fe__contact.points, for contacts that have any; see contact_solver.h
     fe__points *points;
     fe__features *features;
-    uint64_t *point_serials;     // fe__pair_serial of A and of B, two a record
-    fe__extra *extras;           // mixed materials of special rows; none before the first of them
-    int32_t *point_order;        // a permutation of the records: the first point_count are in use, or record 0
-    _Atomic int32_t point_count; // record 0 among them
+    uint64_t *point_serials;          // fe__pair_serial of A and of B, two a record
+    fe__extra *extras;                // mixed materials of special rows; none before the first of them
+    int32_t *point_order;             // a permutation of the records: the first point_count are in use, or record 0
+    _Atomic int32_t point_count;      // record 0 among them
     int32_t point_capacity, feature_capacity, point_serial_capacity, extra_capacity, point_order_capacity;
     int32_t pair_limit;               // indices below were used
     int32_t first_free_pair;          // -1: none
-    int32_t pair_count, linked_count; // patches count with their head, and each that is linked
+    int32_t pair_count, linked_count; // patches count with their head; each that is linked counts
     int32_t awake_linked_count;       // linked ones in the list of awake pairs
-    int32_t field_pair_count;         // with a heightfield in them
-    int32_t trigger_pair_count;       // with a trigger in them
+    int32_t field_pair_count;         // pairs with a heightfield or mesh
+    int32_t trigger_pair_count;       // pairs with a trigger
     // bounds for what a step may need; they only grow
     int32_t pair_colours, static_colours; // all that there ever were are among the first so many
     uint32_t row_kinds;                   // 1 << FE__ROW_* of every pair
-    int32_t wants_hits;                   // a shape asked for hit events
-    int32_t has_bullets;                  // a body was one
-    int32_t has_stale_sizes;              // a body has FE__BODY_SIZES_STALE
-    _Atomic int32_t
-        swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
+    int32_t wants_hits;                   // 1: a shape asked for hit events
+    int32_t has_bullets;                  // 1: a body was one
+    int32_t has_stale_sizes;              // 1: a body has FE__BODY_SIZES_STALE
+    _Atomic int32_t swiftest;             // largest speed over thickness, 1/s: bits of a float, which rise with it
     fe__clusters clusters;
-    fe__pair_set pair_set; // by shape indices
-    // of two shapes, one of which is a compound at least: record of their parts' pairs (encounter.h)
-    fe__pair_set encounter_set; // by the indices of the whole shapes
+    fe__pair_set pair_set;                // pairs by shape indices
+    fe__pair_set encounter_set;           // encounters (encounter.h) by the indices of the whole shapes
     fe__record_pool encounters;
-    int32_t encounter_count, part_pair_count; // pairs that are in one
-    int32_t first_changed;                    // encounter to report of, 0: none
-    // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (filter.h)
-    fe__pair_set ignored;
+    int32_t encounter_count, part_pair_count; // part_pair_count: pairs that are in an encounter
+    int32_t first_changed;                    // encounter to report, 0: none
+    fe__pair_set ignored;                     // records of fe_world_ignore_collision, by body indices (filter.h)
     fe__record_pool ignores;
 
     // joints: what the solver reads, and the rest by the same index; slot i - 1 of the handles is joint i
@@ -122,15 +118,15 @@ struct fe_world {
     fe__joint_record *joint_records;
     int32_t joint_capacity[4];
     fe__record_pool joint_axes;                      // fe__joints.axes
-    fe__record_pool joint_settings[FE__JOINT_TYPES]; // what a type's definition has beyond the common front
+    fe__record_pool joint_settings[FE__JOINT_TYPES]; // settings of a type beyond the common front of definitions
     int32_t first_joint, last_joint, joint_count;    // in the order of creation
     int32_t breakable_count;                         // joints with a break force or torque
 
-    // who is awake: dense lists of indices, in no order that matters
+    // awake records: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
-    int32_t *awake_pairs;    // or ~pair, see skip_test.h
-    fe__deferral *deferrals; // beside it
+    int32_t *awake_pairs;    // the pair, or ~pair while it is deferred, see skip_test.h
+    fe__deferral *deferrals; // by place in that list
     int32_t awake_pair_count, awake_pair_capacity, deferral_capacity;
     int32_t *awake_joints;
     int32_t awake_joint_count, awake_joint_capacity;
@@ -139,12 +135,12 @@ struct fe_world {
     fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
     int32_t *planes;                   // shapes
     int32_t plane_count, plane_capacity;
-    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor
-    // IN_PLANES): skip it. Who empties the list clears FE__SHAPE_MOVED of all in it
+    // Shapes whose box is new since the last step's pairs. A shape that has left since is still listed (neither IN_TREE
+    // nor IN_PLANES): skip it. Emptying the list clears FE__SHAPE_MOVED of all in it.
     int32_t *moved;
     int32_t moved_count, moved_capacity;
 
-    // events of the last step, and exits owed to the next one by what ended in between
+    // events of the last step, and exits owed to the next one by pairs that ended in between
     fe__pair_event_record *pair_events;
     int32_t pair_event_count, pair_event_capacity;
     int32_t first_owed, owed_count; // records of ended pairs that owe an exit, linked as free ones are; 0: none
@@ -158,15 +154,16 @@ struct fe_world {
     int32_t joint_event_count, joint_event_capacity;
 
     fe__solver solver;                // graph, rows, body lines
-    struct fe__step_scratch *scratch; // of the stages (world_memory.h)
-    fe__memory *step_memory;          // of both: `memory`, or of the workroom that lends them (world_memory.h)
-    int64_t step_number;              // of the last step, 0: none yet
+    struct fe__step_scratch *scratch; // shared by the stages (world_memory.h)
+    fe__memory *step_memory;          // allocates solver and scratch: `memory`, or that of the workroom that lends them
+    int64_t step_number;              // number of the last step, 0: none yet
     float last_h;                     // substep length that the stored impulses belong to, s, 0: none
-    float last_dt;                    // of the last step that moved anything, s: how far ahead boxes look
+    float last_dt;                    // length of the last step that moved anything, s: boxes look so far ahead
 
     fe_profile profile;
     fe_counters counters;
 };
+// clang-format on
 
 // The records of a shape: its own, then those of its parts. -1: no more
 static inline int32_t fe__next_of_whole(const fe_world *world, int32_t whole, int32_t record)
@@ -174,20 +171,19 @@ static inline int32_t fe__next_of_whole(const fe_world *world, int32_t whole, in
     int32_t next = world->shapes[record].next;
     return next >= 0 && world->shapes[next].parent == whole ? next : -1;
 }
-// Is the record the shape's, or that of a part of it?
+// 1: the record is the shape's, or that of a part of it.
 static inline int32_t fe__is_of_whole(const fe_world *world, int32_t record, int32_t whole)
 {
     return record == whole || world->shapes[record].parent == whole;
 }
 
 // ---- handles --------------------------------------------------------------------------------------------------------
-// The handle of a record.
 
 static inline fe_handle fe__body_handle(const fe_world *world, int32_t body)
 {
     return fe__id_pool_handle(&world->body_ids, body);
 }
-// Of a part: that of its compound
+// The handle of a shape; a part has its compound's.
 static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape)
 {
     return fe__id_pool_handle(&world->shape_ids, fe__whole_shape(world->shapes, shape));

@@ -217,7 +217,7 @@ int32_t fe__open_step_scratch(fe_world *world)
 {
     if (world->scratch) return 1;
     world->scratch = fe__allocate(world->step_memory, sizeof *world->scratch);
-    if (world->scratch) atomic_store(&world->scratch->some_deferred, 1); // who knows what the world was
+    if (world->scratch) atomic_store(&world->scratch->some_deferred, 1); // the world may have deferred pairs
     return world->scratch != NULL;
 }
 
@@ -226,34 +226,30 @@ void fe__step_scratch_free(fe__step_scratch *s, fe__memory *memory)
     if (!s) return;
     FE_FREE(memory, s->candidates, s->candidate_capacity);
     FE_FREE(memory, s->moved_bits, s->moved_words);
-    FE_FREE(memory, s->crowd, s->crowd_capacity);
-    FE_FREE(memory, s->favourites, s->favourite_capacity);
+    FE_FREE(memory, s->heaps, s->heap_capacity);
+    FE_FREE(memory, s->ranked_pairs, s->ranked_capacity);
     FE_FREE(memory, s->is_buried, s->is_buried_capacity);
     FE_FREE(memory, s->buried, s->buried_capacity);
     FE_FREE(memory, s->results, s->result_capacity);
-    FE_FREE(memory, s->busy, s->busy_capacity);
+    FE_FREE(memory, s->active, s->active_capacity);
     FE_FREE(memory, s->left, s->left_capacity);
     FE_FREE(memory, s->boxes, s->box_capacity);
-    FE_FREE(memory, s->chased, s->chased_capacity);
-    FE_FREE(memory, s->chases, s->chase_capacity);
+    FE_FREE(memory, s->swept, s->swept_capacity);
+    FE_FREE(memory, s->sweep_ends, s->sweep_end_capacity);
     FE_FREE(memory, s->island_timers, s->island_capacity);
     fe__release(memory, s, sizeof *s);
 }
 
 // ---- workroom -------------------------------------------------------------------------------------------------------
 
-// The solver's memory changes hands; what it knows of a world stays with that
-static void exchange(fe__solver *mine, fe__solver *of_world)
+// The solvers change places, but for `burdened`, which is state of the world. The graph is the other world's.
+static void exchange_solvers(fe__workroom *room, fe_world *world)
 {
-    int32_t burdened = of_world->burdened;
-    fe__solver lent = *mine;
-    *mine = *of_world;
-    *of_world = lent;
-    of_world->burdened = burdened;
-}
-
-static void forget_graph(fe_world *world)
-{
+    int32_t burdened = world->solver.burdened;
+    fe__solver lent = room->solver;
+    room->solver = world->solver;
+    world->solver = lent;
+    world->solver.burdened = burdened;
     fe__graph_forget(&world->solver);
     world->solver.unbuilt = world->awake_linked_count;
 }
@@ -262,8 +258,7 @@ void fe__workroom_lend(fe__workroom *room, fe_world *world)
 {
     fe__step_scratch_free(world->scratch, world->step_memory);
     fe__solver_destroy(&world->solver, world->step_memory);
-    exchange(&room->solver, &world->solver);
-    forget_graph(world);
+    exchange_solvers(room, world);
     world->step_memory = room->memory;
     world->scratch = room->scratch, room->scratch = NULL;
     if (world->scratch) atomic_store(&world->scratch->some_deferred, 1);
@@ -272,8 +267,7 @@ void fe__workroom_lend(fe__workroom *room, fe_world *world)
 void fe__workroom_take_back(fe__workroom *room, fe_world *world)
 {
     room->scratch = world->scratch, world->scratch = NULL;
-    exchange(&room->solver, &world->solver);
-    forget_graph(world);
+    exchange_solvers(room, world);
     world->step_memory = &world->memory;
 }
 
