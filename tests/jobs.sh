@@ -81,6 +81,27 @@ programs() {
     done
 }
 
+# sanitized thread|address in|out: the programs that tests/sanitized chooses for `make test` under that sanitizer; or the others, of which the
+# thread sanitizer has something to say where they start threads
+sanitized() {
+    local sources=(tests/*/test_*.c)
+    if test "$1" = thread; then mapfile -t sources < <(grep -lE 'workers|worker_count|pthread_create|pool_create' "${sources[@]}"); fi
+    printf '%s\n' "${sources[@]}" | sed 's|^tests/||; s|\.c$||' | awk -v kind="$1" -v wanted="$2" '
+        FNR == NR { if ($1 == kind) { sign[++n] = $2; pattern[n] = "^(" $3 ")$" } next }
+        { chosen = "out"; for (i = 1; i <= n; ++i) if ($0 ~ pattern[i]) chosen = sign[i] == "+" ? "in" : "out" }
+        chosen == wanted' tests/sanitized -
+}
+# build_sanitized thread|address folder SIMD-sets programs. The kernels are one source, and take half of the time to build
+build_sanitized() {
+    local kinds=$1 sets=$3
+    if test "$1" = address; then kinds=address,undefined; fi
+    build "$2" "build with -fsanitize=$kinds" SANITIZE=$kinds OPT=-O1 SIMD_OPT=-O1 WERROR=0 "'SIMD_SETS=$sets'" \
+        "$(for name in $4; do printf '%s ' "$2/tests/$name"; done)"
+}
+# ThreadSanitizer needs its addresses free, which a randomized layout with many bits does not leave.
+fixed_layout=
+if setarch -R true 2> /dev/null; then fixed_layout="setarch -R "; fi
+
 finish() {
     local passed failed
     read -r passed failed < <(awk '{ p += $1; f += $2 } END { print p + 0, f + 0 }' "$results")

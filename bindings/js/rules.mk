@@ -43,6 +43,11 @@ $(BUILD)/wasm/%/libfeather.a: FORCE
 	@+$(MAKE) --no-print-directory BUILD=$(@D) SIMD_SETS=wasm CC='$(WASM_CC) $(WASM_FEATURES)' AR=$(WASM_AR) OPT='$(WASM_OPT)' \
 	    SIMD_OPT='$(WASM_SIMD_OPT)' COLD_OPT='$(WASM_COLD_OPT)' \
 	    CFLAGS= LDFLAGS= BENCH_PEERS= $@
+# the golden scripts by these objects: tests/determinism/wasm
+$(BUILD)/wasm/library/feather-golden: $(BUILD)/wasm/library/libfeather.a
+	@+$(MAKE) --no-print-directory BUILD=$(@D) SIMD_SETS=wasm CC='$(WASM_CC) $(WASM_FEATURES)' AR=$(WASM_AR) OPT='$(WASM_OPT)' \
+	    SIMD_OPT='$(WASM_SIMD_OPT)' COLD_OPT='$(WASM_COLD_OPT)' \
+	    CFLAGS= LDFLAGS= BENCH_PEERS= $@
 $(BUILD)/wasm/api.js: bindings/js/generate.mjs include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(NODE) $< include/feather.h $(@D)

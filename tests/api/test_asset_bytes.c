@@ -14,7 +14,7 @@
 #if defined(__SANITIZE_THREAD__)
 enum { HULLS = 20, MESHES = 10, FLIPS = 1, EVERY = 13 };
 #elif defined(FE_SANITIZED)
-enum { HULLS = 200, MESHES = 60, FLIPS = 1, EVERY = 1 };
+enum { HULLS = 60, MESHES = 20, FLIPS = 1, EVERY = 4 };
 #else
 enum { HULLS = 2000, MESHES = 400, FLIPS = 2, EVERY = 1 };
 #endif

@@ -13,7 +13,7 @@
 #include <stdio.h>
 
 #if defined(FE_SANITIZED)
-enum { DRAWS = 30 };
+enum { DRAWS = 15 };
 #else
 enum { DRAWS = 300 };
 #endif

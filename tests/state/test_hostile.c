@@ -492,10 +492,16 @@ static void random_numbers_are_refused_or_live_in(const script *s, int32_t steps
     FE_TRUE(fe_world_destroy(world) == FE_OK);
 }
 
+#if defined(FE_SANITIZED)
+enum { ROUNDS = 50 };
+#else
+enum { ROUNDS = 150 };
+#endif
+
 static int32_t rounds(void)
 {
     const char *long_run = getenv("FE_STATE_ROUNDS");
-    return long_run ? atoi(long_run) : 150;
+    return long_run ? atoi(long_run) : ROUNDS;
 }
 
 static void numbers_of_any_size_are_refused_or_sound(void **state)
