@@ -1,4 +1,4 @@
-// draw_shapes.c - see draw_shapes.h.
+// draw_shapes.c - see drawing.h.
 #include "draw/drawing.h"
 
 #include "world/body.h"

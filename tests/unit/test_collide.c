@@ -12,8 +12,8 @@ enum { POSES = 20000 };
 #define MARGIN 0.02f
 // Forms of up to 1 m half width lie up to 4 m apart: float rounds by 2.4e-7 there, and some ten roundings add up.
 #define ROUNDING 3e-6
-// Of two answers as deep as each other within this the steadier is given (kernels.h); the box kernel chooses twice,
-// face of A before face of B before edge.
+// Of two answers as deep as each other within this the steadier is given (pair_kernels.h); the box kernel chooses
+// twice, face of A before face of B before edge.
 #define TIE 0.0005
 #define FACE_DEGREES 5.0
 #define HALF_PI 1.57079632679489662

@@ -64,7 +64,7 @@ static fe__relative near_pose(uint64_t *random, const fe__form *a, const fe__for
 static void the_deepest_point_is_among_them(void **state)
 {
     (void)state;
-    const double rounding = 1e-5, tie = 0.0005, parallel = 2e-3; // see hull_axis.c: left out, of edges 2 m long
+    const double rounding = 1e-5, tie = 0.0005, parallel = 2e-3; // see hull_hull.c: left out, of edges 2 m long
     uint64_t random = 31;
     int32_t missed = 0;
     for (int32_t i = 0; i < PAIRS;) {
