@@ -10,17 +10,17 @@
 #include <string.h>
 
 // ---- query ----------------------------------------------------------------------------------------------------------
-// What the files of the query API share: reading filters and geometries, the scene.
+// The functions of the query API share these: they read filters and geometries, and fill the scene.
 
 enum { FE_LEAST_RECORD = 8 }; // bytes of a record that a caller may ask for
 
 // `copy` is whole afterwards. NULL: the defaults.
 fe_result fe__read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy);
-// What a query moves: any form with an inside but the half space, and a sphere may have no radius. A hull is kept alive
-// until fe__let_go_of_form: another thread may destroy it.
+// A query moves any form with an inside but the half space; a sphere may have no radius. A hull is kept alive until
+// fe__let_go_of_form, because another thread may destroy it.
 typedef struct fe__moving_form {
     fe__form form;
-    fe_store *store; // that has the form's hull; NULL: it has none
+    fe_store *store; // The form's hull belongs to this store. NULL: it has no hull
 } fe__moving_form;
 fe_result fe__read_moving_form(const char *function, const fe_world *world, const fe_geometry *geometry,
                                fe__moving_form *out_moving);
@@ -129,7 +129,7 @@ static int32_t answer_all(const fe_world *world, batch *b, int32_t count, int32_
     return atomic_load_explicit(&b->hits, memory_order_relaxed);
 }
 
-enum { NAME_SIZE = 48 }; // of "paths[2147483647].start.position"
+enum { NAME_SIZE = 48 }; // The longest name is "paths[2147483647].start.position".
 
 static fe_result check_part(const char *function, const char *format, int32_t i, const fe_dvec3 *v, double most)
 {

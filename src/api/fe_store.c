@@ -109,8 +109,7 @@ fe_vec3 fe__scale_of(const fe_store *store, const fe__form *form)
 }
 
 // ---- store ----------------------------------------------------------------------------------------------------------
-// The API of stores and of assets of any kind. From any thread: what a store holds is read and changed under
-// its lock.
+// The API of stores and of assets of any kind. Any thread may call it: a store is read and changed under its lock.
 
 // ---- stores --------------------------------------------------------------------------------------------------------
 

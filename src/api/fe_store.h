@@ -16,7 +16,7 @@ void fe__let_go_of_asset(fe_store *store, const fe__form *form); // of any form
 fe_vec3 fe__scale_of(const fe_store *store, const fe__form *form);
 
 // ---- store ----------------------------------------------------------------------------------------------------------
-// What the API functions of stores open with.
+// The API functions of stores open with these macros.
 
 #define FE_BEGIN_STORE(store)        \
     const char *function = __func__; \

@@ -42,7 +42,7 @@ fe_result fe_pool_destroy(fe_pool *pool)
 }
 
 // ---- library --------------------------------------------------------------------------------------------------------
-// What belongs to no world.
+// These functions belong to no world.
 
 uint32_t fe_version(void)
 {

@@ -215,10 +215,11 @@ enum {
     SIDE = 2, // a split leaves at least so many of the nine on each side
 };
 
-// Of areas. Boxes that are each a little larger than the one before must not stay above: they would make a chain.
+// This is a ratio of areas. Boxes that are each a little larger than the one before must not stay above: they would
+// make a chain.
 #define MUCH_LARGER 4.0f
 
-// What a lane holds, or is to hold.
+// An entry is what a lane holds, or is to hold.
 typedef struct entry {
     fe__tree_box box;
     int32_t child;
@@ -238,7 +239,7 @@ static int32_t append_node(fe__tree *tree, int32_t parent, int32_t lane)
 
 // ---- where to ------------------------------------------------------------------------------------------------------
 typedef struct lane_costs {
-    _Alignas(16) float area[FE_TREE_WIDTH]; // of the lane's box
+    _Alignas(16) float area[FE_TREE_WIDTH]; // The area of each lane's box, m2.
     _Alignas(16) float cost[FE_TREE_WIDTH]; // area that is added by putting the new box there
 } lane_costs;
 
@@ -366,7 +367,7 @@ static entry split(fe__tree *tree, int32_t index, const entry *extra)
             left = cut;
         }
     }
-    int32_t fresh = append_node(tree, node->parent, 0); // its lane is known when it is hung up
+    int32_t fresh = append_node(tree, node->parent, 0); // The lane above it is known when it is hung up.
     fe__node_init(node, node->parent, node->lane);
     for (int32_t k = 0; k < NINE; ++k) {
         const entry *e = &sorted[axis][k];
@@ -490,7 +491,7 @@ static int32_t check_lane(walk *at, int32_t index, int32_t lane)
     return below->parent == index && below->lane == lane && holds(node, lane, below);
 }
 
-// Of a node that is in the tree its parent's lane is it: so a node is met once
+// The parent's lane of a node in the tree leads back to the node: so each node is met once.
 static int32_t check_node(walk *at, int32_t index)
 {
     const fe__tree *tree = at->tree;
